@@ -5,6 +5,7 @@
 
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
+using Catch::Approx;
 /// Matcher: the text holds `part`.
 inline auto contains(const std::string& part) { return Catch::Matchers::ContainsSubstring(part); }
 #else
@@ -12,5 +13,3 @@ inline auto contains(const std::string& part) { return Catch::Matchers::Contains
 /// Matcher: the text holds `part`.
 inline auto contains(const std::string& part) { return Catch::Matchers::Contains(part); }
 #endif
-
-using Catch::Approx;

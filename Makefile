@@ -1,0 +1,38 @@
+# Two commands do everything on a fresh Debian 12 or Ubuntu 24.04: `make verify` and `make test`.
+# Each installs what is missing, configures, builds and runs. CMake alone works too: see README.md.
+
+BUILD   ?= build
+RESULTS ?= results
+PROGRAM  = $(BUILD)/verification/mpm-verify
+
+.PHONY: verify verify-quick test bench program packages configure clean
+
+verify: program
+	$(PROGRAM) run --suite full --out $(RESULTS)
+
+verify-quick: program
+	$(PROGRAM) run --suite quick --out $(RESULTS)-quick
+
+test: configure
+	cmake --build $(BUILD)
+	ctest --test-dir $(BUILD) -L 'unit|e2e' --output-on-failure
+
+bench: configure
+	cmake --build $(BUILD) --target bench
+
+program: configure
+	cmake --build $(BUILD) --target mpm-verify
+
+packages:
+	@sh .ci/install-packages
+
+# Ninja where it is there; a build directory keeps the generator that it was made with.
+configure: packages
+	@if [ -f $(BUILD)/CMakeCache.txt ] || ! command -v ninja > /dev/null; then \
+	  cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release; \
+	else \
+	  cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -G Ninja; \
+	fi
+
+clean:
+	rm -rf $(BUILD)

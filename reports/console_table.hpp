@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/records.hpp"
+
+namespace reports {
+
+/// The checks as a table for a terminal, at most 110 columns wide: one line for each that holds, then those
+/// that do not with observed value, bounds and reason, then the count. `colour` adds ANSI colours; the caller
+/// knows whether the output is a terminal and whether NO_COLOR is set.
+std::string console_table(const std::vector<CheckRecord>& checks, bool colour);
+
+}  // namespace reports

@@ -1,0 +1,167 @@
+#include "reports/gnuplot.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "reports/atomic_file.hpp"
+#include "reports/io_error.hpp"
+
+namespace reports {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_executable(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
+}
+
+std::string find_program(const std::string& name) {
+  if (name.find('/') != std::string::npos) {
+    return is_executable(name) ? fs::absolute(name).string() : "";
+  }
+  const char* path = std::getenv("PATH");
+  std::string_view rest = path ? path : "/usr/local/bin:/usr/bin:/bin";
+  while (!rest.empty()) {
+    const std::size_t colon = rest.find(':');
+    const fs::path candidate = fs::path(rest.substr(0, colon)) / name;
+    if (candidate.is_absolute() && is_executable(candidate)) return candidate.string();
+    rest = colon == rest.npos ? "" : rest.substr(colon + 1);
+  }
+  return "";
+}
+
+struct Outcome {
+  int status = -1;        ///< exit status, 128 + signal, or -1 if it could not be started
+  std::string complaint;  ///< its standard error, or why it could not be started
+};
+
+// Start a program in `directory` without a shell and wait for it.
+Outcome run_program(const std::string& program, const fs::path& directory,
+                    const std::vector<std::string>& arguments) {
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  const std::string where = directory.string();
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return {-1, std::strerror(errno)};
+  const pid_t child = fork();
+  if (child < 0) {
+    const int error = errno;
+    close(ends[0]);
+    close(ends[1]);
+    return {-1, std::strerror(error)};
+  }
+  if (child == 0) {
+    // Only async-signal-safe calls from here: the parent may have threads.
+    const int null = open("/dev/null", O_RDWR);
+    dup2(null, STDIN_FILENO);
+    dup2(null, STDOUT_FILENO);
+    dup2(ends[1], STDERR_FILENO);
+    if (chdir(where.c_str()) == 0) execv(program.c_str(), argv.data());
+    _exit(127);
+  }
+  close(ends[1]);
+  Outcome outcome;
+  char block[4096];
+  while (true) {
+    const ssize_t got = read(ends[0], block, sizeof block);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) break;
+    outcome.complaint.append(block, static_cast<std::size_t>(got));
+  }
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return {-1, std::strerror(errno)};
+  }
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return outcome;
+}
+
+bool holds_exactly(const fs::path& path, const std::string& content) {
+  std::error_code error;
+  return fs::file_size(path, error) == content.size() && !error && read_file(path) == content;
+}
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (c != '\n' && c != '\t' && c != ' ') {
+      line += c;
+    } else if (!line.empty() && line.back() != ' ') {
+      line += ' ';
+    }
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line.size() > 400 ? line.substr(0, 400) + "..." : line;
+}
+
+}  // namespace
+
+std::string gnuplot_text(std::string_view text) {
+  // Octal escapes in double quotes. Single quotes would be more readable, but gnuplot loses its way in a text
+  // that begins with an escaped one.
+  static constexpr std::string_view special = "\"'`\\@$;#";
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '\n') {
+      quoted += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      quoted += ' ';
+    } else if (special.find(c) != special.npos) {
+      quoted += fmt::format("\\{:03o}", static_cast<unsigned>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+Gnuplot::Gnuplot() {
+  const char* named = std::getenv("MPM_GNUPLOT");
+  wanted_ = named && *named ? named : "gnuplot";
+  program_ = find_program(wanted_);
+}
+
+std::string Gnuplot::draw(const fs::path& directory, const std::string& name,
+                          const std::string& script) const {
+  const fs::path script_file = directory / (name + ".gp");
+  const fs::path images[] = {directory / (name + ".svg"), directory / (name + ".png")};
+  std::error_code error;
+  if (holds_exactly(script_file, script) && fs::exists(images[0], error) && fs::exists(images[1], error))
+    return "";
+
+  // Images go first, so that an interruption cannot leave them beside a script that they were not drawn from.
+  for (const fs::path& image : images) fs::remove(image, error);
+  write_file(script_file, script);
+  if (!available()) return fmt::format("{} not found", wanted_);
+
+  const Outcome outcome = run_program(program_, directory, {"-e", "part = '.part'", name + ".gp"});
+  bool drawn = outcome.status == 0;
+  for (const fs::path& image : images) {
+    const fs::path part = image.string() + ".part";
+    if (drawn && fs::exists(part, error) && fs::file_size(part, error) > 0) {
+      fs::rename(part, image, error);
+      drawn = !error;
+    } else {
+      drawn = false;
+    }
+    fs::remove(part, error);
+  }
+  if (drawn) return "";
+  for (const fs::path& image : images) fs::remove(image, error);
+  return fmt::format("{} failed on {} (status {}): {}", wanted_, script_file.string(), outcome.status,
+                     outcome.complaint.empty() ? "it wrote no image" : one_line(outcome.complaint));
+}
+
+}  // namespace reports

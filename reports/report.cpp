@@ -1,0 +1,76 @@
+#include "reports/report.hpp"
+
+#include <fmt/format.h>
+
+#include "reports/atomic_file.hpp"
+#include "reports/gnuplot.hpp"
+#include "reports/junit.hpp"
+#include "reports/report_data.hpp"
+#include "reports/report_html.hpp"
+#include "reports/report_markdown.hpp"
+#include "reports/result_files.hpp"
+
+namespace reports {
+namespace {
+
+void draw_figures(const std::filesystem::path& dir, ReportData& data) {
+  if (data.results.figures.empty()) return;
+  const std::filesystem::path directory = dir / "figures";
+  ensure_directory(directory);
+  const Gnuplot gnuplot;
+  std::size_t lost = 0;
+  std::string complaint;
+  for (const FigureRecord& record : data.results.figures) {
+    ReportFigure shown{build_figure(dir, record, data.results), false};
+    if (shown.figure.script.empty()) {
+      data.warnings.push_back(fmt::format("figure {}: there is nothing finite to draw", record.figure));
+    } else {
+      const std::string problem = gnuplot.draw(directory, record.figure, shown.figure.script);
+      shown.drawn = problem.empty();
+      if (!shown.drawn && lost++ == 0) complaint = problem;
+    }
+    data.figures.push_back(std::move(shown));
+  }
+  if (lost == 0) return;
+  data.warnings.push_back(
+      gnuplot.available()
+          ? fmt::format("{} of {} figures not drawn: {}", lost, data.figures.size(), complaint)
+          : fmt::format(
+                "{} of {} figures not drawn: {} is not installed; install gnuplot and run `mpm-verify report "
+                "DIR` again",
+                lost, data.figures.size(), gnuplot.wanted()));
+}
+
+void warn_of_contradictions(ReportData& data) {
+  for (const CheckRecord& check : data.results.checks) {
+    const bool within = check.lower <= check.observed && check.observed <= check.upper;
+    if (check.verdict == (within ? "pass" : "fail")) continue;
+    data.warnings.push_back(
+        fmt::format("checks.csv: verdict '{}' of '{}' ({}) contradicts its numbers; it counts as {}",
+                    check.verdict, check.check, check.study, holds(check) ? "passed" : "failed"));
+  }
+}
+
+}  // namespace
+
+ReportOutcome write_report(const std::filesystem::path& dir) {
+  ReportData data;
+  data.results = read_results(dir);
+  data.provenance = read_provenance(dir);
+  warn_of_contradictions(data);
+  if (!data.provenance) data.warnings.push_back("no provenance.json: what made these results is not known");
+  draw_figures(dir, data);
+
+  write_file(dir / "report.md", markdown_report(data));
+  write_file(dir / "report.html", html_report(dir, data));
+  write_file(dir / "junit.xml", junit_report(data.results));
+
+  ReportOutcome outcome;
+  outcome.checks_failed = failures(data.results).size();
+  outcome.checks_passed = data.results.checks.size() - outcome.checks_failed;
+  outcome.passed = passed(data.results);
+  outcome.warnings = data.warnings;
+  return outcome;
+}
+
+}  // namespace reports

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace reports {
+
+struct ReportOutcome {
+  std::size_t checks_passed = 0, checks_failed = 0;
+  bool passed = false;                ///< at least one check, and all hold
+  std::vector<std::string> warnings;  ///< one line each; they stand in the report too
+};
+
+/// Make figures/, report.md, report.html and junit.xml of a result directory from its CSV files and
+/// provenance.json alone. The same files give the same bytes. A missing or failing gnuplot costs the figures
+/// and one warning.
+/// @throws IoError if a file is missing or malformed or cannot be written.
+ReportOutcome write_report(const std::filesystem::path& dir);
+
+}  // namespace reports

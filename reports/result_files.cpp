@@ -1,0 +1,203 @@
+#include "reports/result_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/csv.hpp"
+#include "reports/io_error.hpp"
+
+namespace reports {
+namespace {
+
+// The order here is the order of the columns in the files. A new field of a record is one line.
+constexpr auto study_columns = std::make_tuple(  //
+    column("study", &StudyRecord::study),        //
+    column("title", &StudyRecord::title),        //
+    column("claim", &StudyRecord::claim),        //
+    column("suite", &StudyRecord::suite));
+
+constexpr auto run_columns = std::make_tuple(    //
+    column("run", &RunRecord::run),              //
+    column("study", &RunRecord::study),          //
+    column("scene", &RunRecord::scene),          //
+    column("fluid", &RunRecord::fluid),          //
+    column("basis", &RunRecord::basis),          //
+    column("transfer", &RunRecord::transfer),    //
+    column("stepping", &RunRecord::stepping),    //
+    column("cells", &RunRecord::cells),          //
+    column("particles", &RunRecord::particles),  //
+    column("dt", &RunRecord::dt),                //
+    column("steps", &RunRecord::steps),          //
+    column("status", &RunRecord::status));
+
+constexpr auto error_columns = std::make_tuple(  //
+    column("run", &ErrorRecord::run),            //
+    column("t", &ErrorRecord::t),                //
+    column("location", &ErrorRecord::location),  //
+    column("l1", &ErrorRecord::l1),              //
+    column("l2", &ErrorRecord::l2),              //
+    column("linf", &ErrorRecord::linf));
+
+constexpr auto level_columns = std::make_tuple(  //
+    column("study", &LevelRecord::study),        //
+    column("variant", &LevelRecord::variant),    //
+    column("axis", &LevelRecord::axis),          //
+    column("location", &LevelRecord::location),  //
+    column("norm", &LevelRecord::norm),          //
+    column("t", &LevelRecord::t),                //
+    column("step", &LevelRecord::step),          //
+    column("value", &LevelRecord::value),        //
+    column("used", &LevelRecord::used));
+
+constexpr auto order_columns = std::make_tuple(                    //
+    column("study", &OrderRecord::study),                          //
+    column("variant", &OrderRecord::variant),                      //
+    column("axis", &OrderRecord::axis),                            //
+    column("location", &OrderRecord::location),                    //
+    column("norm", &OrderRecord::norm),                            //
+    column("t", &OrderRecord::t),                                  //
+    column("theoretical", &OrderRecord::theoretical),              //
+    column("observed", &OrderRecord::observed),                    //
+    column("ci_lower", &OrderRecord::ci_lower),                    //
+    column("ci_upper", &OrderRecord::ci_upper),                    //
+    column("levels_used", &OrderRecord::levels_used),              //
+    column("levels", &OrderRecord::levels),                        //
+    column("classification", &OrderRecord::classification),        //
+    column("pairwise", &OrderRecord::pairwise),                    //
+    column("gci", &OrderRecord::gci),                              //
+    column("gci_safety_factor", &OrderRecord::gci_safety_factor),  //
+    column("uncertainty", &OrderRecord::uncertainty),              //
+    column("quantity", &OrderRecord::quantity));
+
+constexpr auto check_columns = std::make_tuple(  //
+    column("study", &CheckRecord::study),        //
+    column("check", &CheckRecord::check),        //
+    column("observed", &CheckRecord::observed),  //
+    column("lower", &CheckRecord::lower),        //
+    column("upper", &CheckRecord::upper),        //
+    column("unit", &CheckRecord::unit),          //
+    column("verdict", &CheckRecord::verdict),    //
+    column("reason", &CheckRecord::reason));
+
+constexpr auto timing_columns = std::make_tuple(  //
+    column("run", &TimingRecord::run),            //
+    column("wall_s", &TimingRecord::wall_s),      //
+    column("particle_steps_per_s", &TimingRecord::particle_steps_per_s));
+
+constexpr auto figure_columns = std::make_tuple(    //
+    column("figure", &FigureRecord::figure),        //
+    column("study", &FigureRecord::study),          //
+    column("kind", &FigureRecord::kind),            //
+    column("title", &FigureRecord::title),          //
+    column("runs", &FigureRecord::runs),            //
+    column("labels", &FigureRecord::labels),        //
+    column("across", &FigureRecord::across),        //
+    column("component", &FigureRecord::component),  //
+    column("location", &FigureRecord::location),    //
+    column("norm", &FigureRecord::norm));
+
+constexpr auto profile_columns = std::make_tuple(  //
+    column("t", &ProfileRow::t),                   //
+    column("location", &ProfileRow::location),     //
+    column("x", &ProfileRow::x),                   //
+    column("y", &ProfileRow::y),                   //
+    column("u", &ProfileRow::u),                   //
+    column("v", &ProfileRow::v),                   //
+    column("u_exact", &ProfileRow::u_exact),       //
+    column("v_exact", &ProfileRow::v_exact));
+
+constexpr auto history_columns = std::make_tuple(     //
+    column("t", &HistoryRow::t),                      //
+    column("probe", &HistoryRow::probe),              //
+    column("probe_exact", &HistoryRow::probe_exact),  //
+    column("mass", &HistoryRow::mass),                //
+    column("momentum_x", &HistoryRow::momentum_x),    //
+    column("momentum_y", &HistoryRow::momentum_y),    //
+    column("impulse_x", &HistoryRow::impulse_x),      //
+    column("impulse_y", &HistoryRow::impulse_y),      //
+    column("kinetic_energy", &HistoryRow::kinetic_energy));
+
+std::filesystem::path profile_path(const std::filesystem::path& dir, const std::string& run,
+                                   const char* ending) {
+  return dir / "profiles" / (require_plain_name("run", run) + ending);
+}
+
+void require_plain_names(const Results& results) {
+  for (const RunRecord& run : results.runs) require_plain_name("run", run.run);
+  for (const FigureRecord& figure : results.figures) require_plain_name("figure", figure.figure);
+}
+
+}  // namespace
+
+bool is_plain_name(const std::string& name) {
+  const auto plain = [](unsigned char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '=' || c == '-';
+  };
+  const std::string history = ".history";
+  const bool is_history = name.size() >= history.size() &&
+                          name.compare(name.size() - history.size(), history.size(), history) == 0;
+  // A file name may have 255 bytes; the ending and the temporary file's number need some of them.
+  return !name.empty() && name.size() <= 200 && name.front() != '.' && !is_history &&
+         std::all_of(name.begin(), name.end(), plain);
+}
+
+const std::string& require_plain_name(const char* what, const std::string& name) {
+  if (is_plain_name(name)) return name;
+  throw IoError(
+      fmt::format("{} name '{}' cannot be a file name; use up to 200 letters, digits and . _ = -, no "
+                  "leading dot, no '.history' at the end",
+                  what, name));
+}
+
+Results read_results(const std::filesystem::path& dir) {
+  Results results;
+  results.studies = read_csv(dir / "studies.csv", study_columns);
+  results.runs = read_csv(dir / "runs.csv", run_columns);
+  results.errors = read_csv(dir / "errors.csv", error_columns);
+  results.levels = read_csv(dir / "levels.csv", level_columns);
+  results.orders = read_csv(dir / "orders.csv", order_columns);
+  results.checks = read_csv(dir / "checks.csv", check_columns);
+  results.timings = read_csv(dir / "timing.csv", timing_columns);
+  results.figures = read_csv(dir / "figures.csv", figure_columns);
+  require_plain_names(results);
+  return results;
+}
+
+void write_results(const std::filesystem::path& dir, const Results& results) {
+  require_plain_names(results);
+  ensure_directory(dir);
+  write_csv(dir / "studies.csv", study_columns, results.studies);
+  write_csv(dir / "runs.csv", run_columns, results.runs);
+  write_csv(dir / "errors.csv", error_columns, results.errors);
+  write_csv(dir / "levels.csv", level_columns, results.levels);
+  write_csv(dir / "orders.csv", order_columns, results.orders);
+  write_csv(dir / "checks.csv", check_columns, results.checks);
+  write_csv(dir / "timing.csv", timing_columns, results.timings);
+  write_csv(dir / "figures.csv", figure_columns, results.figures);
+}
+
+std::vector<ProfileRow> read_profile(const std::filesystem::path& dir, const std::string& run) {
+  return read_csv(profile_path(dir, run, ".csv"), profile_columns);
+}
+
+void write_profile(const std::filesystem::path& dir, const std::string& run,
+                   const std::vector<ProfileRow>& rows) {
+  const auto path = profile_path(dir, run, ".csv");
+  ensure_directory(path.parent_path());
+  write_csv(path, profile_columns, rows);
+}
+
+std::vector<HistoryRow> read_history(const std::filesystem::path& dir, const std::string& run) {
+  return read_csv(profile_path(dir, run, ".history.csv"), history_columns);
+}
+
+void write_history(const std::filesystem::path& dir, const std::string& run,
+                   const std::vector<HistoryRow>& rows) {
+  const auto path = profile_path(dir, run, ".history.csv");
+  ensure_directory(path.parent_path());
+  write_csv(path, history_columns, rows);
+}
+
+}  // namespace reports

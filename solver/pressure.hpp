@@ -1,0 +1,27 @@
+#pragma once
+
+namespace mpm {
+
+/// Tait equation of state P = K[(rho/rho0)^7 - 1] (paper Eq. 23) with density following the dilatation.
+struct TaitPressure {
+  double bulk_modulus;               ///< K [Pa]
+  double inverse_reference_density;  ///< 1/rho0 [m3/kg]
+
+  /// rho_new = rho/(1 + dt tr D) (below the paper's Eq. 23, misprint corrected) [kg/m3]
+  [[nodiscard]] double advance_density(double density, double dilatation_rate, double dt) const {
+    return density / (1 + dt * dilatation_rate);
+  }
+  [[nodiscard]] double pressure(double density) const {
+    const double r = density * inverse_reference_density;
+    const double r3 = r * r * r;
+    return bulk_modulus * (r3 * r3 * r - 1);
+  }
+};
+
+/// For scenes declared divergence-free: no pressure, constant density.
+struct NoPressure {
+  [[nodiscard]] double advance_density(double density, double, double) const { return density; }
+  [[nodiscard]] double pressure(double) const { return 0; }
+};
+
+}  // namespace mpm

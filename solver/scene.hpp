@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "solver/linear_algebra.hpp"
+#include "solver/rheology.hpp"
+
+namespace mpm {
+
+/// A scene or scheme that cannot be simulated: the message names the quantity and what it must be.
+class SceneError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// One side of the rectangular domain: joined to the opposite side, or a no-slip wall with a given motion.
+struct Side {
+  bool periodic = true;
+  std::function<Vec2(double)> velocity;  ///< of the wall at time t [m/s]
+  std::function<Vec2(double)>
+      acceleration;  ///< its derivative [m/s2]; an impulsive start does not appear in it
+
+  static Side joined() { return {}; }
+  /// A wall that has moved with constant velocity [m/s] since t = 0.
+  static Side wall(const Vec2& v);
+};
+
+enum class Edge { Left, Right, Bottom, Top };
+
+/// The weakly compressible fluid.
+struct Fluid {
+  double density = 1000;      ///< reference density rho0 [kg/m3]
+  double bulk_modulus = 143;  ///< K of the Tait equation of state P = K[(rho/rho0)^7 - 1] [Pa]
+  bool pressure = true;  ///< false: neither pressure nor density evolve, for flows declared divergence-free
+  Rheology rheology;
+
+  /// Speed of sound sqrt(7 K/rho0) [m/s]; 0 without pressure.
+  [[nodiscard]] double sound_speed() const;
+  /// Largest kinematic viscosity [m2/s].
+  [[nodiscard]] double largest_kinematic_viscosity() const;
+};
+
+/// What is simulated: the rectangle [0, size.x] x [0, size.y] full of fluid. SI units.
+struct Scene {
+  Vec2 size{1, 1};                              ///< [m]
+  std::array<int, 2> cells{1, 1};               ///< background cells along x, y
+  std::array<int, 2> particles_per_cell{2, 2};  ///< material points a cell along x, y, evenly spaced
+  std::array<Side, 4> sides;                    ///< indexed by Edge
+  Fluid fluid;
+  std::function<Vec2(double)> body_acceleration;      ///< uniform, at time t [m/s2]; none when empty
+  std::function<Vec2(const Vec2&)> initial_velocity;  ///< [m/s]; at rest when empty
+
+  [[nodiscard]] const Side& side(Edge e) const { return sides[static_cast<std::size_t>(e)]; }
+  Side& side(Edge e) { return sides[static_cast<std::size_t>(e)]; }
+  [[nodiscard]] double cell_size(int axis) const {
+    return size[axis] / cells[static_cast<std::size_t>(axis)];
+  }
+  [[nodiscard]] double smallest_cell_size() const;
+  [[nodiscard]] bool periodic(int axis) const { return sides[axis == 0 ? 0 : 2].periodic; }
+
+  /// Throws SceneError when the scene cannot be simulated.
+  void validate() const;
+};
+
+/// How it is simulated. Names are those of the literature and of the TOML files.
+struct Scheme {
+  enum class Basis { Linear };
+  enum class Transfer { Flip };
+  enum class Stepping { Usf, Usl, Musl };
+  Basis basis = Basis::Linear;
+  Transfer transfer = Transfer::Flip;
+  Stepping stepping = Stepping::Usf;
+};
+
+/// Name of a scheme's part, e.g. "linear"; and back (throws SceneError listing the known names).
+std::string name(Scheme::Basis basis);
+std::string name(Scheme::Transfer transfer);
+std::string name(Scheme::Stepping stepping);
+Scheme::Basis basis_named(const std::string& text);
+Scheme::Transfer transfer_named(const std::string& text);
+Scheme::Stepping stepping_named(const std::string& text);
+
+}  // namespace mpm

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/particles.hpp"
+#include "solver/scene.hpp"
+
+namespace mpm {
+
+/// Totals over the whole scene, per unit depth.
+struct Totals {
+  double mass;            ///< [kg/m]
+  Vec2 momentum;          ///< of the particles [kg/s]
+  Vec2 impulse;           ///< body and wall forces integrated over time since t = 0 [kg/s]
+  double kinetic_energy;  ///< of the particles [J/m]
+};
+
+/// One simulation, whatever its basis, transfer, stepping and fluid. The scene must outlive it.
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+
+  /// Advances the state from t to t + dt [s].
+  virtual void advance(double t, double dt) = 0;
+
+  /// Why the last step cannot be continued from (a value that is not finite, a particle outside, a density
+  /// that is not positive); empty while the state is sound.
+  [[nodiscard]] virtual std::optional<std::string> breakdown() const = 0;
+
+  [[nodiscard]] virtual const Particles& particles() const = 0;
+
+  /// The grid field at time t [s] at the given points: the particles mapped to the grid with the walls' velocity
+  /// imposed, interpolated with the basis [m/s]. Leaves the state as it is.
+  [[nodiscard]] virtual VectorField grid_field(const VectorField& points, double t) const = 0;
+
+  [[nodiscard]] virtual Totals totals() const = 0;
+};
+
+/// The cell corners of a scene, row by row from the bottom; a periodic direction lists each corner once [m].
+VectorField cell_corners(const Scene& scene);
+
+/// Seeds the scene and starts the chosen scheme on it. Throws SceneError for a scene that cannot be
+/// simulated.
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme);
+
+}  // namespace mpm

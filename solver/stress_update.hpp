@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+
+#include "solver/basis.hpp"
+#include "solver/particles.hpp"
+#include "solver/pressure.hpp"
+
+namespace mpm {
+
+/// Strain rate, density, viscosity and stress of every particle from a nodal velocity field. The choice of
+/// fluid is made once a call, outside the particle loop.
+class StressUpdate {
+ public:
+  virtual ~StressUpdate() = default;
+  /// Advances density by dt [s] and sets the stress; dt = 0 sets the stress of the present state.
+  virtual void operator()(Particles& particles, const Grid& grid, const VectorField& nodal_velocity,
+                          double dt) const = 0;
+};
+
+/// sigma = 2 mu D - (2/3) mu tr(D) I - P I (paper Eq. 21).
+template <class Rheology>
+Mat2 viscous_stress(const Rheology& rheology, const Mat2& strain_rate) {
+  const double mu = [&] {
+    if constexpr (Rheology::needs_shear_rate)
+      return rheology.viscosity(2 * strain_rate.squaredNorm());
+    else
+      return rheology.viscosity();
+  }();
+  return 2 * mu * strain_rate - (2.0 / 3.0) * mu * strain_rate.trace() * Mat2::Identity();
+}
+
+template <class Basis, class Rheology, class Pressure>
+class FluidStress final : public StressUpdate {
+ public:
+  FluidStress(const Rheology& rheology, const Pressure& pressure)
+      : rheology_(rheology), pressure_(pressure) {}
+
+  void operator()(Particles& particles, const Grid& grid, const VectorField& nodal_velocity,
+                  double dt) const override {
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const Mat2 l = gradient<Basis>(grid, nodal_velocity, particles.position[p]);
+      const Mat2 d = 0.5 * (l + l.transpose());
+      particles.density[p] = pressure_.advance_density(particles.density[p], d.trace(), dt);
+      particles.stress[p] =
+          viscous_stress(rheology_, d) - pressure_.pressure(particles.density[p]) * Mat2::Identity();
+    }
+  }
+
+ private:
+  Rheology rheology_;
+  Pressure pressure_;
+};
+
+/// The update that a fluid asks for, on a basis.
+template <class Basis>
+std::unique_ptr<StressUpdate> make_stress_update(const Fluid& fluid) {
+  return std::visit(
+      [&]<class Law>(const Law& law) -> std::unique_ptr<StressUpdate> {
+        if (fluid.pressure)
+          return std::make_unique<FluidStress<Basis, Law, TaitPressure>>(
+              law, TaitPressure{fluid.bulk_modulus, 1 / fluid.density});
+        return std::make_unique<FluidStress<Basis, Law, NoPressure>>(law, NoPressure{});
+      },
+      fluid.rheology);
+}
+
+}  // namespace mpm

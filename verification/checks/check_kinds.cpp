@@ -1,0 +1,211 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "verification/checks/check_reader.hpp"
+#include "verification/checks/comparison.hpp"
+#include "verification/study/measures.hpp"
+
+namespace verification {
+namespace {
+
+using Records = std::vector<reports::CheckRecord>;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::string label(const std::string& variant) { return variant.empty() ? "" : variant + ": "; }
+
+// ---- keys that several kinds share
+
+void require_upper(TomlTable& table, CheckSpec& spec, double lower) {
+  if (!std::isfinite(spec.upper)) table.fail("upper", "is missing; give the tolerance");
+  if (!std::isfinite(spec.lower)) spec.lower = lower;
+}
+
+void require_band(TomlTable& table, const CheckSpec& spec) {
+  if (!std::isfinite(spec.lower)) table.fail("lower", "is missing; give a two-sided band");
+  if (!std::isfinite(spec.upper)) table.fail("upper", "is missing; give a two-sided band");
+}
+
+void read_locations(TomlTable& table, CheckSpec& spec) {
+  const std::vector<std::string> words =
+      table.has("locations") ? table.texts("locations") : std::vector<std::string>{"grid", "particles"};
+  for (const std::string& word : words) {
+    if (word != "grid" && word != "particles") table.fail("locations", "may hold \"grid\" and \"particles\"");
+    spec.locations.push_back(word == "grid" ? Location::Grid : Location::Particles);
+  }
+}
+
+void read_norm(TomlTable& table, CheckSpec& spec) {
+  spec.norm = table.text("norm", "l2");
+  if (spec.norm != "l1" && spec.norm != "l2" && spec.norm != "linf")
+    table.fail("norm", "must be \"l1\", \"l2\" or \"linf\"");
+}
+
+void read_times(TomlTable& table, const Study& study, CheckSpec& spec) {
+  const std::vector<double>& outputs = study.runs.front().scene.outputs;
+  spec.times = table.has("times") ? table.numbers("times") : outputs;
+  for (const PlannedRun& run : study.runs) {
+    if (std::ranges::count(spec.variants, run.variant) == 0) continue;
+    for (const double t : spec.times)
+      if (std::ranges::count(run.scene.outputs, t) == 0)
+        table.fail("times", fmt::format("{} s is no output time of run {}", t, run.run));
+  }
+}
+
+void read_level(TomlTable& table, CheckSpec& spec) {
+  spec.level = table.text("level", "finest");
+  if (spec.level != "finest" && spec.level != "coarsest" && spec.level != "all")
+    table.fail("level", "must be \"finest\", \"coarsest\" or \"all\"");
+}
+
+std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& data, const std::string& variant) {
+  auto runs = data.runs_of(variant);
+  if (spec.level == "finest") return {runs.back()};
+  if (spec.level == "coarsest") return {runs.front()};
+  return runs;
+}
+
+/// "variant: n20" where a check speaks of several levels.
+std::string label(const CheckSpec& spec, const RunData& run) {
+  if (spec.level != "all" || run.record.run.size() <= run.record.study.size()) return label(run.plan->variant);
+  return run.record.run.substr(run.record.study.size() + 1) + ": ";
+}
+
+// ---- error: a relative error norm at each time
+
+void read_error(TomlTable& table, const Study& study, CheckSpec& spec) {
+  require_upper(table, spec, 0);
+  read_locations(table, spec);
+  read_norm(table, spec);
+  read_times(table, study, spec);
+  read_level(table, spec);
+}
+
+void evaluate_error(const CheckSpec& spec, const StudyData& data, Records& records) {
+  for (const std::string& variant : spec.variants)
+    for (const RunData* run : levels_of(spec, data, variant))
+      for (const reports::ErrorRecord& error : run->errors)
+        for (const Location location : spec.locations)
+          if (error.location == name(location) && std::ranges::count(spec.times, error.t) > 0)
+            records.push_back(judge(spec, data,
+                                    fmt::format("{}{} error, {}, t = {} s", label(spec, *run), spec.norm,
+                                                error.location, error.t),
+                                    pick(error, spec.norm), "1"));
+}
+
+// ---- order: the observed convergence order in a band
+
+void read_order(TomlTable& table, const Study& study, CheckSpec& spec) {
+  if (study.ladder.axis == Axis::None) table.fail("kind", "\"order\" needs a [ladder]");
+  require_band(table, spec);
+  read_locations(table, spec);
+  read_norm(table, spec);
+  read_times(table, study, spec);
+}
+
+void evaluate_order(const CheckSpec& spec, const StudyData& data, Records& records) {
+  for (const reports::OrderRecord& order : data.orders)
+    for (const Location location : spec.locations)
+      if (order.location == name(location) && order.norm == spec.norm &&
+          std::ranges::count(spec.variants, order.variant) > 0 && std::ranges::count(spec.times, order.t) > 0) {
+        const double observed = order.classification == "monotone" ? order.observed : nan;
+        records.push_back(judge(spec, data,
+                                fmt::format("{}{} order, {} {}, t = {} s", label(order.variant), order.axis,
+                                            order.location, order.norm, order.t),
+                                observed, "1"));
+      }
+}
+
+// ---- particle-bias: mean signed particle error in the middle half of the gap, in units of h^2 F/nu
+
+void read_bias(TomlTable& table, const Study& study, CheckSpec& spec) {
+  require_band(table, spec);
+  read_times(table, study, spec);
+  read_level(table, spec);
+  for (const PlannedRun& run : study.runs)
+    if (std::ranges::count(spec.variants, run.variant) > 0 && !std::isfinite(run.scene.flow->bias_unit(1)))
+      table.fail("kind", "\"particle-bias\" is for channels (run " + run.run + ")");
+}
+
+void evaluate_bias(const CheckSpec& spec, const StudyData& data, Records& records) {
+  for (const std::string& variant : spec.variants)
+    for (const RunData* run : levels_of(spec, data, variant))
+      for (const double t : spec.times)
+        records.push_back(judge(spec, data, fmt::format("{}particle bias, t = {} s", label(spec, *run), t),
+                                particle_bias(*run, t), "h^2 F/nu"));
+}
+
+// ---- difference: every sample equals that of another variant at the same place across the flow
+
+void read_difference(TomlTable& table, const Study& study, CheckSpec& spec) {
+  require_upper(table, spec, 0);
+  read_locations(table, spec);
+  read_times(table, study, spec);
+  read_level(table, spec);
+  spec.against = table.text("against");
+  if (std::ranges::count(study.variants, spec.against) == 0)
+    table.fail("against", "'" + spec.against + "' is no variant of this study");
+  std::erase(spec.variants, spec.against);
+  if (spec.variants.empty()) table.fail("against", "leaves no variant to compare");
+}
+
+void evaluate_difference(const CheckSpec& spec, const StudyData& data, Records& records) {
+  const auto others = levels_of(spec, data, spec.against);
+  for (const std::string& variant : spec.variants) {
+    const auto runs = levels_of(spec, data, variant);
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      for (const Location location : spec.locations)
+        for (const double t : spec.times)
+          records.push_back(judge(spec, data,
+                                  fmt::format("{}largest difference from {}, {}, t = {} s", label(spec, *runs[k]),
+                                              spec.against, name(location), t),
+                                  largest_difference(*runs[k], *others[k], t, location), "1"));
+  }
+}
+
+// ---- conservation: mass, or momentum against the impulse of body and wall forces
+
+void read_conservation(TomlTable& table, const Study&, CheckSpec& spec) {
+  require_upper(table, spec, 0);
+  read_level(table, spec);
+  spec.quantity = table.text("quantity");
+  if (spec.quantity != "mass" && spec.quantity != "momentum")
+    table.fail("quantity", "must be \"mass\" or \"momentum\"");
+}
+
+void evaluate_conservation(const CheckSpec& spec, const StudyData& data, Records& records) {
+  for (const std::string& variant : spec.variants)
+    for (const RunData* run : levels_of(spec, data, variant))
+      records.push_back(judge(spec, data, fmt::format("{}drift of {}", label(spec, *run), spec.quantity),
+                              spec.quantity == "mass" ? mass_drift(*run) : momentum_drift(*run), "1"));
+}
+
+// ---- divergence: these runs, and no others, must break down
+
+void read_divergence(TomlTable&, const Study&, CheckSpec& spec) { spec.lower = spec.upper = 1; }
+
+void evaluate_divergence(const CheckSpec& spec, const StudyData& data, Records& records) {
+  for (const RunData& run : data.runs) {
+    const bool expected = std::ranges::count(spec.variants, run.plan->variant) > 0;
+    records.push_back(judge(spec, data, fmt::format("{} {}", run.record.run, expected ? "diverges" : "completes"),
+                            run.completed() != expected ? 1 : 0, "truth"));
+  }
+}
+
+}  // namespace
+
+const std::vector<CheckKind>& check_kinds() {
+  static const std::vector<CheckKind> kinds = {
+      {"error", read_error, evaluate_error},
+      {"order", read_order, evaluate_order},
+      {"particle-bias", read_bias, evaluate_bias},
+      {"difference", read_difference, evaluate_difference},
+      {"conservation", read_conservation, evaluate_conservation},
+      {"divergence", read_divergence, evaluate_divergence},
+  };
+  return kinds;
+}
+
+}  // namespace verification

@@ -1,0 +1,62 @@
+#include "verification/checks/check_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace verification {
+namespace {
+
+const CheckKind& kind_named(const std::string& name, const TomlTable& table) {
+  std::string known;
+  for (const CheckKind& kind : check_kinds()) {
+    if (kind.name == name) return kind;
+    known += (known.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  table.fail("kind", "'" + name + "' is not known; choose one of: " + known);
+}
+
+reports::CheckRecord completion(const StudyData& data) {
+  CheckSpec spec;
+  spec.lower = spec.upper = 0;
+  spec.reason = "no run of this study is expected to diverge; each that does is listed in runs.csv";
+  const auto broken = std::ranges::count_if(data.runs, [](const RunData& run) { return !run.completed(); });
+  return judge(spec, data, "runs that did not complete", static_cast<double>(broken), "runs");
+}
+
+}  // namespace
+
+CheckSpec read_check(TomlTable& table, const Study& study) {
+  CheckSpec spec;
+  spec.kind = table.text("kind");
+  spec.reason = table.text("reason");
+  if (spec.reason.find_first_not_of(" \n\t") == std::string::npos)
+    table.fail("reason", "must say where the tolerance comes from");
+  spec.variants = table.has("variants") ? table.texts("variants") : study.variants;
+  for (const std::string& variant : spec.variants)
+    if (std::ranges::count(study.variants, variant) == 0)
+      table.fail("variants", "'" + variant + "' is no variant of this study");
+  spec.lower = table.number("lower", spec.lower);
+  spec.upper = table.number("upper", spec.upper);
+  if (spec.lower > spec.upper) table.fail("lower", "must not exceed upper");
+  const CheckKind& kind = kind_named(spec.kind, table);
+  kind.read(table, study, spec);
+  table.refuse_unknown_keys();
+  return spec;
+}
+
+reports::CheckRecord judge(const CheckSpec& spec, const StudyData& data, const std::string& check, double observed,
+                           const std::string& unit) {
+  const bool holds = spec.lower <= observed && observed <= spec.upper;
+  return {data.study->name, check, observed, spec.lower, spec.upper, unit, holds ? "pass" : "fail", spec.reason};
+}
+
+void evaluate_checks(StudyData& data) {
+  bool fate_declared = false;
+  for (const CheckSpec& spec : data.study->checks) {
+    kind_named(spec.kind, TomlTable::from_text("", data.study->name)).evaluate(spec, data, data.checks);
+    fate_declared |= spec.kind == "divergence";
+  }
+  if (!fate_declared) data.checks.push_back(completion(data));
+}
+
+}  // namespace verification

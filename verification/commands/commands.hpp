@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+// The verbs of mpm-verify. Each returns the exit code: 0 all checks pass, 1 a check failed, 3 a solver error.
+// Mistakes of the user are thrown (ConfigError, reports::IoError) and become exit code 2 in main.
+namespace verification {
+
+struct ListOptions {
+  std::filesystem::path studies;
+  std::string suite = "deep";
+};
+int list_command(const ListOptions& options);
+
+struct RunOptions {
+  std::filesystem::path studies;
+  std::vector<std::string> names;  ///< of studies, or paths of study files; empty: the suite
+  std::string suite;               ///< "": full, or all that is named
+  std::filesystem::path out = "results";
+  int jobs = 0;                    ///< 0: as many as there are cores
+  std::string command_line;
+};
+int run_command(const RunOptions& options);
+
+struct SceneOptions {
+  std::filesystem::path scene, out;
+  std::string command_line;
+};
+int solve_command(const SceneOptions& options);
+int reference_command(const SceneOptions& options);
+
+int report_command(const std::filesystem::path& dir);
+
+}  // namespace verification

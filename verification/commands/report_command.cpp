@@ -1,0 +1,16 @@
+#include <fmt/format.h>
+
+#include "reports/report.hpp"
+#include "verification/commands/commands.hpp"
+
+namespace verification {
+
+int report_command(const std::filesystem::path& dir) {
+  const reports::ReportOutcome outcome = reports::write_report(dir);
+  for (const std::string& warning : outcome.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  fmt::print("{}: {} of {} checks pass; see {}\n", outcome.passed ? "PASS" : "FAIL", outcome.checks_passed,
+             outcome.checks_passed + outcome.checks_failed, (dir / "report.html").string());
+  return outcome.passed ? 0 : 1;
+}
+
+}  // namespace verification

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include "reports/atomic_file.hpp"
+#include "reports/report.hpp"
+#include "reports/result_files.hpp"
+#include "verification/commands/commands.hpp"
+#include "verification/commands/provenance_of.hpp"
+#include "verification/config/config_error.hpp"
+#include "verification/study/measures.hpp"
+#include "verification/study/run_simulation.hpp"
+
+namespace verification {
+namespace {
+
+/// The single run of a scene file, as a study without checks.
+Study study_of_scene(const SceneOptions& options) {
+  Study study;
+  study.name = options.scene.stem().string();
+  if (!reports::is_plain_name(study.name))
+    throw ConfigError(options.scene.string() + ": the file's name becomes the run's: letters, digits and . _ = - only");
+  study.variants = {""};
+  PlannedRun planned;
+  planned.scene = read_scene_config(TomlTable::from_file(options.scene.string()));
+  planned.run = study.name;
+  planned.step = planned.scene.cell_size();
+  study.title = study.claim = planned.scene.flow_name + ", one simulation";
+  study.runs.push_back(std::move(planned));
+  return study;
+}
+
+reports::FigureRecord figure_of(const Study& study, const std::string& kind, const std::string& title) {
+  const PlannedRun& plan = study.runs.front();
+  reports::FigureRecord figure;
+  figure.figure = study.name + "-" + kind;
+  figure.study = study.name;
+  figure.kind = kind;
+  figure.title = title;
+  figure.runs = plan.run;
+  figure.across = plan.scene.flow->across() == 0 ? "x" : "y";
+  figure.component = plan.scene.flow->probe().direction.x() != 0 ? "u" : "v";
+  figure.location = "grid;particles";
+  figure.norm = "l2";
+  return figure;
+}
+
+/// The profile as an external solver would hand it in: the interchange file of `[solver]` studies.
+void write_interchange(const std::filesystem::path& out, const RunData& data) {
+  std::string text = "t,location,x,y,u,v\n";
+  for (const reports::ProfileRow& row : data.profile)
+    if (row.location != "exact")
+      text += fmt::format("{},{},{},{},{},{}\n", row.t, row.location, row.x, row.y, row.u, row.v);
+  reports::write_file(out / "profile.csv", text);
+}
+
+}  // namespace
+
+int solve_command(const SceneOptions& options) {
+  const Study study = study_of_scene(options);
+  reports::ensure_directory(options.out / "profiles");
+  reports::write_provenance(options.out, provenance_of(options.command_line));
+  RunData data = run_simulation(study, study.runs.front());
+  data.errors = measure_errors(data);
+  reports::write_profile(options.out, data.record.run, data.profile);
+  reports::write_history(options.out, data.record.run, data.history);
+  write_interchange(options.out, data);
+
+  reports::Results results;
+  results.studies.push_back({study.name, study.title, study.claim, ""});
+  results.runs.push_back(data.record);
+  results.timings.push_back(data.timing);
+  results.errors = data.errors;
+  results.figures = {figure_of(study, "profiles", study.runs.front().scene.flow_name + ": velocity profiles"),
+                     figure_of(study, "history", study.runs.front().scene.flow_name + ": velocity at the probe")};
+  reports::write_results(options.out, results);
+
+  fmt::print("{}: {}; {} particles, {} steps, {:.3g} s, {:.3g} particle-steps/s\n", data.record.run, data.record.status,
+             data.record.particles, data.record.steps, data.timing.wall_s, data.timing.particle_steps_per_s);
+  if (study.runs.front().scene.flow->exact()) {
+    fmt::print("errors relative to {:.6g} m/s\n{:>12} {:<10} {:>12} {:>12} {:>12}\n",
+               study.runs.front().scene.flow->velocity_scale(), "t [s]", "location", "L1", "L2", "Linf");
+    for (const reports::ErrorRecord& e : data.errors)
+      fmt::print("{:>12} {:<10} {:>12.4e} {:>12.4e} {:>12.4e}\n", e.t, e.location, e.l1, e.l2, e.linf);
+  }
+  return data.completed() ? 0 : 3;
+}
+
+int reference_command(const SceneOptions& options) {
+  const Study study = study_of_scene(options);
+  const SceneConfig& scene = study.runs.front().scene;
+  const auto exact = scene.flow->exact();
+  if (!exact)
+    throw ConfigError(options.scene.string() + ": key 'scene.flow': no exact solution is known for '" +
+                      scene.flow_name + "'");
+  reports::ensure_directory(options.out / "profiles");
+  reports::write_provenance(options.out, provenance_of(options.command_line));
+  reports::write_profile(options.out, study.name, exact_lines(scene, *exact));
+  fmt::print("{}: {}\n", study.name, scene.flow->exact_description());
+  fmt::print("profiles at {} times: {}\n", scene.outputs.size(),
+             (options.out / "profiles" / (study.name + ".csv")).string());
+  return 0;
+}
+
+}  // namespace verification

@@ -1,0 +1,117 @@
+#include "verification/config/scene_config.hpp"
+
+#include "verification/config/config_error.hpp"
+
+namespace verification {
+namespace {
+
+Discretisation read_discretisation(TomlTable table) {
+  Discretisation d;
+  d.cells = table.integer("cells");
+  if (d.cells < 1) table.fail("cells", "must be at least 1");
+  d.cells_along = table.integer("cells_along", 1);
+  if (d.cells_along < 1) table.fail("cells_along", "must be at least 1");
+  d.particles_across = table.integer("particles_across", 2);
+  if (d.particles_across < 1) table.fail("particles_across", "must be at least 1");
+  d.particles_along = table.integer("particles_along", 2);
+  if (d.particles_along < 1) table.fail("particles_along", "must be at least 1");
+  table.refuse_unknown_keys();
+  return d;
+}
+
+template <class Named>
+auto read_named(TomlTable& table, const std::string& key, const std::string& absent, Named&& named) {
+  const std::string text = table.text(key, absent);
+  try {
+    return named(text);
+  } catch (const mpm::SceneError& error) {
+    table.fail(key, error.what());
+  }
+}
+
+mpm::Scheme read_scheme(TomlTable table) {
+  mpm::Scheme scheme;
+  scheme.basis = read_named(table, "basis", "linear", mpm::basis_named);
+  scheme.transfer = read_named(table, "transfer", "flip", mpm::transfer_named);
+  scheme.stepping = read_named(table, "stepping", "usf", mpm::stepping_named);
+  table.refuse_unknown_keys();
+  return scheme;
+}
+
+std::vector<double> read_outputs(TomlTable& table) {
+  std::vector<double> outputs;
+  if (table.has("outputs")) outputs = table.numbers("outputs");
+  double last = 0;
+  for (const double t : outputs) {
+    if (!(t > last)) table.fail("outputs", "must be positive and increase");
+    last = t;
+  }
+  if (table.has("end")) {
+    const double end = table.positive("end");
+    if (end < last) table.fail("end", "must not lie before the last output");
+    if (end > last) outputs.push_back(end);
+  }
+  if (outputs.empty()) table.fail("end", "is missing; give the end time or a list of outputs [s]");
+  return outputs;
+}
+
+mpm::TimeStepRule read_time_step(TomlTable& table) {
+  mpm::TimeStepRule rule;
+  if (table.has("dt")) {
+    rule.dt = table.positive("dt");
+    for (const char* key : {"cfl_acoustic", "cfl_viscous"})
+      if (table.has(key)) table.fail(key, "cannot stand beside dt: give either a step or its limits");
+    return rule;
+  }
+  rule.cfl_acoustic = table.positive("cfl_acoustic", rule.cfl_acoustic);
+  rule.cfl_viscous = table.positive("cfl_viscous", rule.cfl_viscous);
+  return rule;
+}
+
+}  // namespace
+
+const std::vector<std::string>& scene_tables() {
+  static const std::vector<std::string> tables = {"scene", "fluid", "discretisation", "scheme", "time"};
+  return tables;
+}
+
+long SceneConfig::particles() const {
+  return static_cast<long>(scene.cells[0]) * scene.cells[1] * scene.particles_per_cell[0] *
+         scene.particles_per_cell[1];
+}
+
+long SceneConfig::steps() const {
+  long sum = 0;
+  for (const mpm::Segment& segment : segments) sum += segment.steps;
+  return sum;
+}
+
+double SceneConfig::particle_steps() const { return static_cast<double>(particles()) * static_cast<double>(steps()); }
+
+SceneConfig read_scene_config(TomlTable root) {
+  SceneConfig config;
+  config.toml = root.restricted_to(scene_tables()).print();
+  config.fluid = read_fluid(root.table("fluid"));
+  TomlTable scene = root.table("scene");
+  config.flow_name = scene.text("flow");
+  config.flow = read_flow(scene, config.fluid);
+  config.discretisation = read_discretisation(root.table("discretisation"));
+  config.scheme = read_scheme(root.table("scheme"));
+  TomlTable time = root.table("time");
+  config.outputs = read_outputs(time);
+  config.time_step = read_time_step(time);
+  config.history_samples = time.integer("history_samples", 100);
+  if (config.history_samples < 1) time.fail("history_samples", "must be at least 1");
+  time.refuse_unknown_keys();
+  root.refuse_unknown_keys();
+  config.scene = config.flow->scene(config.discretisation);
+  try {
+    config.scene.validate();
+    config.segments = mpm::plan_segments(config.time_step, config.scene, config.outputs);
+  } catch (const mpm::SceneError& error) {
+    root.fail(config.time_step.dt > 0 ? "time.dt" : "scene", error.what());
+  }
+  return config;
+}
+
+}  // namespace verification

@@ -1,0 +1,229 @@
+#include "verification/config/toml_table.hpp"
+
+#include <toml++/toml.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "verification/config/config_error.hpp"
+
+namespace verification {
+
+struct TomlTable::Data {
+  toml::table table;
+  std::string origin;  // file, and variant if any
+  std::string path;    // dotted prefix of this table
+  std::set<std::string> read;
+};
+
+namespace {
+
+std::string line_of(const toml::node* node) {
+  if (!node || !node->source().begin) return "";
+  return ":" + std::to_string(node->source().begin.line);
+}
+
+void overlay(toml::table& base, const toml::table& overrides) {
+  for (const auto& [key, value] : overrides) {
+    toml::table* into = base[key.str()].as_table();
+    if (into && value.is_table())
+      overlay(*into, *value.as_table());
+    else
+      base.insert_or_assign(key, value);
+  }
+}
+
+template <class Value>
+void set_at(toml::table& root, const std::string& path, Value value) {
+  toml::table* table = &root;
+  std::size_t begin = 0;
+  for (std::size_t dot = path.find('.'); dot != std::string::npos; begin = dot + 1, dot = path.find('.', begin)) {
+    const std::string key = path.substr(begin, dot - begin);
+    if (!table->get_as<toml::table>(key)) table->insert_or_assign(key, toml::table{});
+    table = table->get_as<toml::table>(key);
+  }
+  table->insert_or_assign(path.substr(begin), value);
+}
+
+}  // namespace
+
+TomlTable::TomlTable(std::shared_ptr<Data> data) : data_(std::move(data)) {}
+
+TomlTable TomlTable::from_file(const std::string& path) {
+  std::ifstream in(path);
+  std::ostringstream content;
+  if (in) content << in.rdbuf();
+  if (!in || in.bad()) throw ConfigError(path + ": cannot be read; give the path of a TOML file");
+  return from_text(content.str(), path);
+}
+
+TomlTable TomlTable::from_text(const std::string& text, const std::string& origin) {
+  try {
+    auto data = std::make_shared<Data>();
+    data->table = toml::parse(text);
+    data->origin = origin;
+    return TomlTable(data);
+  } catch (const toml::parse_error& error) {
+    std::ostringstream where;
+    where << origin << ':' << error.source().begin.line << ':' << error.source().begin.column;
+    throw ConfigError(where.str() + ": not valid TOML: " + std::string(error.description()));
+  }
+}
+
+void TomlTable::fail(const std::string& key, const std::string& problem) const {
+  throw ConfigError(data_->origin + line_of(data_->table.get(key)) + ": key '" + data_->path + key + "': " + problem);
+}
+
+bool TomlTable::has(const std::string& key) {
+  accept(key);
+  return data_->table.contains(key);
+}
+
+void TomlTable::accept(const std::string& key) { data_->read.insert(key); }
+
+namespace {
+
+double finite_number(const TomlTable& table, const std::string& key, const toml::node* node) {
+  const auto value = node ? node->value<double>() : std::nullopt;
+  if (!value || node->is_boolean()) table.fail(key, "must be a number");
+  if (!std::isfinite(*value)) table.fail(key, "must be finite");
+  return *value;
+}
+
+int whole_number(const TomlTable& table, const std::string& key, const toml::node* node) {
+  const double value = finite_number(table, key, node);
+  if (value != std::floor(value) || std::abs(value) > 1e9) table.fail(key, "must be a whole number below 1e9");
+  return static_cast<int>(value);
+}
+
+std::string word(const TomlTable& table, const std::string& key, const toml::node* node) {
+  if (!node || !node->is_string()) table.fail(key, "must be a text in quotes");
+  return *node->value<std::string>();
+}
+
+template <class Element>
+auto list(const TomlTable& table, const std::string& key, const toml::node* node, Element&& element) {
+  std::vector<decltype(element(table, key, node))> values;
+  if (!node || !node->is_array()) table.fail(key, "must be a list in brackets");
+  for (const toml::node& entry : *node->as_array()) values.push_back(element(table, key, &entry));
+  if (values.empty()) table.fail(key, "must not be empty");
+  return values;
+}
+
+}  // namespace
+
+double TomlTable::number(const std::string& key) {
+  if (!has(key)) fail(key, "is missing; give a number");
+  return finite_number(*this, key, data_->table.get(key));
+}
+
+int TomlTable::integer(const std::string& key) {
+  if (!has(key)) fail(key, "is missing; give a whole number");
+  return whole_number(*this, key, data_->table.get(key));
+}
+
+std::string TomlTable::text(const std::string& key) {
+  if (!has(key)) fail(key, "is missing; give a text in quotes");
+  return word(*this, key, data_->table.get(key));
+}
+
+std::vector<double> TomlTable::numbers(const std::string& key) {
+  if (!has(key)) fail(key, "is missing; give a list of numbers");
+  return list(*this, key, data_->table.get(key), finite_number);
+}
+
+std::vector<int> TomlTable::integers(const std::string& key) {
+  if (!has(key)) fail(key, "is missing; give a list of whole numbers");
+  return list(*this, key, data_->table.get(key), whole_number);
+}
+
+std::vector<std::string> TomlTable::texts(const std::string& key) {
+  if (!has(key)) fail(key, "is missing; give a list of texts");
+  return list(*this, key, data_->table.get(key), word);
+}
+
+double TomlTable::number(const std::string& key, double absent) { return has(key) ? number(key) : absent; }
+int TomlTable::integer(const std::string& key, int absent) { return has(key) ? integer(key) : absent; }
+std::string TomlTable::text(const std::string& key, const std::string& absent) {
+  return has(key) ? text(key) : absent;
+}
+
+bool TomlTable::flag(const std::string& key, bool absent) {
+  if (!has(key)) return absent;
+  if (!data_->table.get(key)->is_boolean()) fail(key, "must be true or false");
+  return *data_->table.get(key)->value<bool>();
+}
+
+double TomlTable::positive(const std::string& key) {
+  const double value = number(key);
+  if (!(value > 0)) fail(key, "must be positive");
+  return value;
+}
+
+double TomlTable::positive(const std::string& key, double absent) { return has(key) ? positive(key) : absent; }
+
+TomlTable TomlTable::table(const std::string& key) {
+  auto data = std::make_shared<Data>();
+  data->origin = data_->origin;
+  data->path = data_->path + key + ".";
+  if (has(key)) {
+    if (!data_->table.get(key)->is_table()) fail(key, "must be a table [" + key + "]");
+    data->table = *data_->table.get(key)->as_table();
+  }
+  return TomlTable(data);
+}
+
+std::vector<TomlTable> TomlTable::tables(const std::string& key) {
+  std::vector<TomlTable> result;
+  if (!has(key)) return result;
+  const toml::array* array = data_->table.get(key)->as_array();
+  if (!array || !array->is_homogeneous<toml::table>()) fail(key, "must be a list of tables [[" + key + "]]");
+  for (const toml::node& entry : *array) {
+    auto data = std::make_shared<Data>();
+    data->origin = data_->origin + line_of(&entry);
+    data->path = data_->path + key + ".";
+    data->table = *entry.as_table();
+    result.push_back(TomlTable(data));
+  }
+  return result;
+}
+
+void TomlTable::refuse_unknown_keys() const {
+  for (const auto& [key, value] : data_->table) {
+    if (data_->read.contains(std::string(key.str()))) continue;
+    std::string known;
+    for (const std::string& name : data_->read) known += (known.empty() ? "" : ", ") + name;
+    fail(std::string(key.str()), "is not known here; known keys: " + known);
+  }
+}
+
+TomlTable TomlTable::overlaid_with(const TomlTable& overrides, const std::string& name) const {
+  auto data = std::make_shared<Data>();
+  data->table = data_->table;
+  data->origin = data_->origin + (name.empty() ? "" : " (" + name + ")");
+  data->path = data_->path;
+  overlay(data->table, overrides.data_->table);
+  return TomlTable(data);
+}
+
+TomlTable TomlTable::restricted_to(const std::vector<std::string>& keys) const {
+  auto data = std::make_shared<Data>();
+  data->origin = data_->origin;
+  data->path = data_->path;
+  for (const std::string& key : keys)
+    if (const toml::node* node = data_->table.get(key)) data->table.insert_or_assign(key, *node);
+  return TomlTable(data);
+}
+
+void TomlTable::set(const std::string& path, double value) { set_at(data_->table, path, value); }
+void TomlTable::set(const std::string& path, int value) { set_at(data_->table, path, static_cast<std::int64_t>(value)); }
+
+std::string TomlTable::print() const {
+  std::ostringstream out;
+  out << data_->table << '\n';
+  return out.str();
+}
+
+}  // namespace verification

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <limits>
+
+#include "verification/flows/flow.hpp"
+
+namespace verification {
+
+/// A rectangle of fluid with any sides, body acceleration and uniform initial velocity, for which no exact solution
+/// is known: runs of it are recorded, not judged against a solution.
+struct BoxParameters {
+  Vec2 size{0, 0};                        ///< [m]
+  std::array<mpm::Side, 4> sides;         ///< indexed by mpm::Edge
+  Vec2 body_acceleration = Vec2::Zero();  ///< [m/s2]
+  Vec2 initial_velocity = Vec2::Zero();   ///< [m/s]
+  double velocity_scale = 0;              ///< [m/s]
+  mpm::Fluid fluid;
+};
+
+class BoxFlow final : public Flow {
+ public:
+  explicit BoxFlow(const BoxParameters& parameters) : parameters_(parameters) {}
+
+  [[nodiscard]] mpm::Scene scene(const Discretisation& d) const override {
+    mpm::Scene scene;
+    scene.size = parameters_.size;
+    scene.cells = {d.cells_along, d.cells};
+    scene.particles_per_cell = {d.particles_along, d.particles_across};
+    scene.sides = parameters_.sides;
+    scene.body_acceleration = [b = parameters_.body_acceleration](double) { return b; };
+    scene.initial_velocity = [v = parameters_.initial_velocity](const Vec2&) { return v; };
+    scene.fluid = parameters_.fluid;
+    return scene;
+  }
+  [[nodiscard]] double velocity_scale() const override { return parameters_.velocity_scale; }
+  [[nodiscard]] Probe probe() const override { return {0.5 * parameters_.size, Vec2(1, 0)}; }
+  [[nodiscard]] int across() const override { return 1; }
+  [[nodiscard]] double length() const override { return parameters_.size.y(); }
+
+ private:
+  BoxParameters parameters_;
+};
+
+}  // namespace verification

@@ -1,0 +1,106 @@
+#include "verification/flows/channel_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/discrete_usf_channel.hpp"
+#include "reference/newtonian_channel.hpp"
+
+namespace verification {
+namespace {
+
+Vec2 unit(int axis) { return axis == 0 ? Vec2(1, 0) : Vec2(0, 1); }
+
+class ContinuousChannel final : public ExactField {
+ public:
+  ContinuousChannel(int axis, std::shared_ptr<const reference::ChannelSolution> solution)
+      : axis_(axis), solution_(std::move(solution)) {}
+  [[nodiscard]] Vec2 velocity(const Vec2& x, double t, Location) const override {
+    return solution_->velocity(x[1 - axis_], t) * unit(axis_);
+  }
+
+ private:
+  int axis_;
+  std::shared_ptr<const reference::ChannelSolution> solution_;
+};
+
+/// Node and row values of the discrete solution; between nodes the linear basis interpolates.
+class DiscreteChannel final : public ExactField {
+ public:
+  DiscreteChannel(int axis, const reference::DiscreteUsfChannelParameters& parameters)
+      : axis_(axis), parameters_(parameters), channel_(parameters) {}
+
+  [[nodiscard]] Vec2 velocity(const Vec2& x, double t, Location location) const override {
+    const double y = x[1 - axis_];
+    const long step = std::lround(t / parameters_.time_step);
+    if (step != step_) {
+      step_ = step;
+      nodes_ = channel_.node_velocity(step);
+      rows_ = channel_.particle_velocity(step);
+    }
+    if (location == Location::Particles) {
+      const double rows_per_metre = static_cast<double>(rows_.size()) / parameters_.height;
+      return rows_.at(static_cast<std::size_t>(y * rows_per_metre)) * unit(axis_);
+    }
+    const double s = y * parameters_.cells / parameters_.height;
+    const auto j = static_cast<std::size_t>(std::clamp(std::floor(s + 1e-9), 0.0, parameters_.cells - 1.0));
+    const double xi = s - static_cast<double>(j);
+    return ((1 - xi) * nodes_[j] + xi * nodes_[j + 1]) * unit(axis_);
+  }
+
+ private:
+  int axis_;
+  reference::DiscreteUsfChannelParameters parameters_;
+  reference::DiscreteUsfChannel channel_;
+  mutable long step_ = -1;  // the step whose values are held: every sample of one output time asks for the same
+  mutable std::vector<double> nodes_, rows_;
+};
+
+}  // namespace
+
+ChannelFlow::ChannelFlow(const ChannelParameters& parameters)
+    : parameters_(parameters),
+      solution_(std::make_shared<reference::NewtonianChannel>(reference::NewtonianChannelParameters{
+          parameters.height, parameters.kinematic_viscosity, parameters.body_acceleration,
+          parameters.plate_velocity})) {}
+
+mpm::Scene ChannelFlow::scene(const Discretisation& d) const {
+  const int along = parameters_.axis, across = 1 - along;
+  mpm::Scene scene;
+  const double h = parameters_.height / d.cells;
+  scene.size[across] = parameters_.height;
+  scene.size[along] = parameters_.length > 0 ? parameters_.length : h * d.cells_along;
+  scene.cells[static_cast<std::size_t>(across)] = d.cells;
+  scene.cells[static_cast<std::size_t>(along)] = d.cells_along;
+  scene.particles_per_cell[static_cast<std::size_t>(across)] = d.particles_across;
+  scene.particles_per_cell[static_cast<std::size_t>(along)] = d.particles_along;
+  scene.side(across == 1 ? mpm::Edge::Bottom : mpm::Edge::Left) = mpm::Side::wall(Vec2::Zero());
+  scene.side(across == 1 ? mpm::Edge::Top : mpm::Edge::Right) =
+      mpm::Side::wall(parameters_.plate_velocity * unit(along));
+  const Vec2 b = parameters_.body_acceleration * unit(along);
+  scene.body_acceleration = [b](double) { return b; };
+  scene.fluid = parameters_.fluid;
+  return scene;
+}
+
+std::shared_ptr<const ExactField> ChannelFlow::exact() const {
+  return std::make_shared<ContinuousChannel>(parameters_.axis, solution_);
+}
+
+std::shared_ptr<const ExactField> ChannelFlow::exact_discrete(const Discretisation& d, double dt) const {
+  return std::make_shared<DiscreteChannel>(
+      parameters_.axis,
+      reference::DiscreteUsfChannelParameters{parameters_.height, d.cells, d.particles_across,
+                                              parameters_.kinematic_viscosity, parameters_.body_acceleration,
+                                              parameters_.plate_velocity, dt});
+}
+
+Probe ChannelFlow::probe() const {
+  return {0.5 * parameters_.height * unit(across()), unit(parameters_.axis)};
+}
+
+double ChannelFlow::bias_unit(double h) const {
+  return h * h * parameters_.body_acceleration / parameters_.kinematic_viscosity;
+}
+
+}  // namespace verification

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/scene.hpp"
+
+namespace verification {
+
+using mpm::Vec2;
+
+/// How finely a flow is resolved. "Across" is the direction in which the solution varies, "along" the other.
+struct Discretisation {
+  int cells = 0;  ///< across the flow's characteristic length
+  int cells_along = 1;
+  int particles_across = 2, particles_along = 2;  ///< a cell
+};
+
+/// Where a velocity was taken: on the grid field or at a particle.
+enum class Location { Grid, Particles };
+std::string name(Location location);
+
+/// What a run is compared with.
+class ExactField {
+ public:
+  virtual ~ExactField() = default;
+  /// Velocity [m/s] at a point [m] and time [s].
+  [[nodiscard]] virtual Vec2 velocity(const Vec2& x, double t, Location location) const = 0;
+};
+
+/// A point that histories follow, and the velocity component recorded there.
+struct Probe {
+  Vec2 point;      ///< [m]
+  Vec2 direction;  ///< unit vector
+};
+
+/// A flow problem: what is solved, and what the answer is. Adding one: a class here, its reader in the table of
+/// flows/flow_reader.cpp.
+class Flow {
+ public:
+  virtual ~Flow() = default;
+
+  /// The solver's scene at a resolution, fluid included.
+  [[nodiscard]] virtual mpm::Scene scene(const Discretisation& discretisation) const = 0;
+
+  /// The exact solution of the differential equations; null where none is known.
+  [[nodiscard]] virtual std::shared_ptr<const ExactField> exact() const { return nullptr; }
+
+  /// One line on the exact solution: what it is, and the error that it states for itself.
+  [[nodiscard]] virtual std::string exact_description() const { return "no exact solution"; }
+
+  /// The exact solution of the Newtonian USF linear FLIP scheme itself, for steps of dt [s]; null where none is
+  /// known.
+  [[nodiscard]] virtual std::shared_ptr<const ExactField> exact_discrete(const Discretisation&, double dt) const {
+    static_cast<void>(dt);
+    return nullptr;
+  }
+
+  /// Velocity that errors are divided by [m/s].
+  [[nodiscard]] virtual double velocity_scale() const = 0;
+  [[nodiscard]] virtual Probe probe() const = 0;
+
+  /// Direction that the solution varies in: 0 for x, 1 for y. The velocity shown in profiles is probe().direction.
+  [[nodiscard]] virtual int across() const = 0;
+  /// Characteristic length [m]: cells are counted along it.
+  [[nodiscard]] virtual double length() const = 0;
+  /// Points of the line on which the exact solution is drawn.
+  [[nodiscard]] std::vector<Vec2> exact_line() const;
+
+  /// Unit of signed particle bias, h^2 F/nu [m/s] for a channel; NaN where it has no meaning.
+  [[nodiscard]] virtual double bias_unit(double cell_size) const;
+};
+
+}  // namespace verification

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <string>
+
+#include "build_info.hpp"
+#include "reports/io_error.hpp"
+#include "verification/commands/commands.hpp"
+#include "verification/config/config_error.hpp"
+
+namespace {
+
+std::string joined(int argc, char** argv) {
+  std::string line;
+  for (int i = 0; i < argc; ++i) line += (i ? " " : "") + std::string(argv[i]);
+  return line;
+}
+
+int dispatch(int argc, char** argv) {
+  using namespace verification;
+  CLI::App app("Verification of particle solvers of viscous flow: refinement studies, exact solutions, a verdict.");
+  app.set_version_flag("--version", std::string(build_info::version) + " (" + build_info::commit + ")");
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 all checks pass, 1 a check failed, 2 usage or configuration, 3 internal or solver error.");
+
+  std::string studies = build_info::studies;
+  ListOptions list;
+  auto* list_app = app.add_subcommand("list", "Studies, what each claims, and what it costs");
+  list_app->add_option("--suite", list.suite, "quick, full or deep (default: all)");
+  list_app->add_option("--studies", studies, "Directory of the studies");
+
+  RunOptions run;
+  auto* run_app = app.add_subcommand("run", "Run studies and judge them");
+  run_app->add_option("STUDY", run.names, "Names of studies or paths of study files (default: the whole suite)");
+  run_app->add_option("--suite", run.suite, "quick, full or deep (default: full)");
+  run_app->add_option("--out", run.out, "Directory of the results")->capture_default_str();
+  run_app->add_option("--jobs", run.jobs, "Runs at the same time (default: one a core)")->check(CLI::Range(1, 1024));
+  run_app->add_option("--studies", studies, "Directory of the studies");
+
+  std::string report_dir;
+  auto* report_app = app.add_subcommand("report", "Rebuild figures and reports from the CSV files of a directory");
+  report_app->add_option("DIR", report_dir, "Directory of results")->required();
+
+  SceneOptions scene;
+  auto* solve_app = app.add_subcommand("solve", "One simulation of a scene");
+  auto* reference_app = app.add_subcommand("reference", "The exact or reference profiles of a scene, no solver");
+  for (auto* sub : {solve_app, reference_app}) {
+    sub->add_option("SCENE", scene.scene, "Scene file (TOML)")->required();
+    sub->add_option("--out", scene.out, "Directory of the results")->required();
+  }
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  list.studies = run.studies = studies;
+  run.command_line = scene.command_line = joined(argc, argv);
+  if (*list_app) return list_command(list);
+  if (*run_app) return run_command(run);
+  if (*report_app) return report_command(report_dir);
+  if (*solve_app) return solve_command(scene);
+  return reference_command(scene);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const verification::ConfigError& error) {
+    fmt::print(stderr, "mpm-verify: {}\n", error.what());
+    return 2;
+  } catch (const reports::IoError& error) {
+    fmt::print(stderr, "mpm-verify: {}\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "mpm-verify: internal error: {}\n", error.what());
+    return 3;
+  }
+}

@@ -1,0 +1,53 @@
+#include "verification/study/figure_reader.hpp"
+
+#include <algorithm>
+
+namespace verification {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ";") + word;
+  return text;
+}
+
+}  // namespace
+
+reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
+  reports::FigureRecord figure;
+  figure.study = study.name;
+  figure.kind = table.text("kind");
+  static const std::vector<std::string> kinds = {"profiles", "history", "convergence", "work-precision"};
+  if (std::ranges::count(kinds, figure.kind) == 0) table.fail("kind", "must be one of: " + joined(kinds));
+  figure.title = table.text("title");
+  figure.norm = table.text("norm", "l2");
+  if (figure.norm != "l1" && figure.norm != "l2" && figure.norm != "linf")
+    table.fail("norm", "must be \"l1\", \"l2\" or \"linf\"");
+  figure.location = table.text("location", figure.kind == "profiles" ? "grid" : "grid;particles");
+  if (figure.location != "grid" && figure.location != "particles" && figure.location != "grid;particles")
+    table.fail("location", "must be \"grid\", \"particles\" or \"grid;particles\"");
+
+  const std::vector<std::string> variants = table.has("variants") ? table.texts("variants") : study.variants;
+  std::vector<std::string> runs;
+  const PlannedRun* last = nullptr;
+  for (const std::string& variant : variants) {
+    const auto ladder = study.runs_of(variant);
+    if (ladder.empty()) table.fail("variants", "'" + variant + "' is no variant of this study");
+    last = ladder.back();
+    runs.push_back(last->run);
+  }
+  if (figure.kind == "profiles" || figure.kind == "history") {
+    if (figure.kind == "profiles" && runs.size() > 1) table.fail("variants", "a profile figure shows one variant");
+    figure.runs = joined(runs);
+    figure.labels = table.has("labels") ? joined(table.texts("labels")) : joined(variants);
+    figure.across = last->scene.flow->across() == 0 ? "x" : "y";
+    figure.component = last->scene.flow->probe().direction.x() != 0 ? "u" : "v";
+  }
+  figure.figure = study.name + "-" + table.text("name", figure.kind);
+  if (std::ranges::any_of(study.figures, [&](const auto& other) { return other.figure == figure.figure; }))
+    table.fail("name", "a second figure of this kind needs a name of its own");
+  table.refuse_unknown_keys();
+  return figure;
+}
+
+}  // namespace verification

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reports/records.hpp"
+#include "verification/convergence/order.hpp"
+#include "verification/study/study.hpp"
+
+namespace verification {
+
+/// What one run left behind.
+struct RunData {
+  const PlannedRun* plan = nullptr;
+  reports::RunRecord record;
+  reports::TimingRecord timing;
+  std::vector<reports::ProfileRow> profile;
+  std::vector<reports::HistoryRow> history;
+  std::vector<double> probe;  ///< streamwise grid velocity at the probe at each output reached [m/s]
+  std::vector<reports::ErrorRecord> errors;
+
+  [[nodiscard]] bool completed() const { return record.status == "completed"; }
+};
+
+/// What a study's runs amount to.
+struct StudyData {
+  const Study* study = nullptr;
+  std::vector<RunData> runs;  ///< in the order of study->runs
+  std::vector<reports::LevelRecord> levels;
+  std::vector<reports::OrderRecord> orders;
+  std::vector<reports::CheckRecord> checks;
+
+  [[nodiscard]] std::vector<const RunData*> runs_of(const std::string& variant) const {
+    std::vector<const RunData*> found;
+    for (const RunData& run : runs)
+      if (run.plan->variant == variant) found.push_back(&run);
+    return found;
+  }
+};
+
+}  // namespace verification

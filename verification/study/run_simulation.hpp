@@ -1,0 +1,14 @@
+#pragma once
+
+#include "verification/study/run_data.hpp"
+
+namespace verification {
+
+/// Runs one planned simulation with our solver and takes its profiles, history and timing. A run that breaks down is
+/// recorded ("diverged at t = ..."); its profiles end with the last output reached.
+RunData run_simulation(const Study& study, const PlannedRun& plan);
+
+/// Fine exact lines at the output times, for figures and for `reference`.
+std::vector<reports::ProfileRow> exact_lines(const SceneConfig& scene, const ExactField& exact);
+
+}  // namespace verification

@@ -1,0 +1,42 @@
+#include "verification/study/study.hpp"
+
+#include "verification/config/config_error.hpp"
+
+namespace verification {
+
+std::string name(Suite suite) {
+  switch (suite) {
+    case Suite::Quick: return "quick";
+    case Suite::Full: return "full";
+    default: return "deep";
+  }
+}
+
+Suite suite_named(const std::string& text) {
+  for (const Suite suite : {Suite::Quick, Suite::Full, Suite::Deep})
+    if (name(suite) == text) return suite;
+  throw ConfigError("suite '" + text + "' is not known; choose one of: quick, full, deep");
+}
+
+std::string name(Axis axis) {
+  switch (axis) {
+    case Axis::Space: return "space";
+    case Axis::Time: return "time";
+    default: return "none";
+  }
+}
+
+double Study::particle_steps() const {
+  double sum = 0;
+  for (const PlannedRun& run : runs) sum += run.scene.particle_steps();
+  return sum;
+}
+
+std::vector<const PlannedRun*> Study::runs_of(const std::string& variant) const {
+  std::vector<const PlannedRun*> found;
+  for (const PlannedRun& run : runs)
+    if (run.variant == variant) found.push_back(&run);
+  return found;
+}
+
+}  // namespace verification

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "reports/records.hpp"
+#include "verification/config/scene_config.hpp"
+
+namespace verification {
+
+/// Suites nest: everything in Quick runs in Full, everything in Full in Deep.
+enum class Suite { Quick, Full, Deep };
+std::string name(Suite suite);
+/// Throws ConfigError for an unknown name.
+Suite suite_named(const std::string& text);
+
+/// What a run is compared with: the differential equations' solution, or the scheme's own.
+enum class Comparison { Exact, Discrete };
+
+/// One simulation of a study.
+struct PlannedRun {
+  std::string run;      ///< unique name, safe as a file name
+  std::string variant;  ///< "" where the study has none
+  int level = 0;        ///< on the ladder, 0 the coarsest
+  double step = 0;      ///< refined quantity: h [m] or dt [s]
+  SceneConfig scene;
+};
+
+enum class Axis { None, Space, Time };
+std::string name(Axis axis);
+
+/// How the levels of a study differ.
+struct Ladder {
+  Axis axis = Axis::None;
+  std::vector<int> cells;      ///< Space: across, coarse to fine
+  double dt_exponent = 2;      ///< Space: dt = time.dt (cells[0]/cells)^dt_exponent
+  std::vector<double> dt;      ///< Time: coarse to fine [s]
+  double theoretical = std::numeric_limits<double>::quiet_NaN();  ///< order that theory gives
+  double floor = 0;            ///< relative error below which levels are round-off: dropped within 10x of it
+};
+
+/// One statement that must hold; which keys matter depends on the kind (checks/).
+struct CheckSpec {
+  std::string kind;
+  std::vector<std::string> variants;   ///< that it speaks of
+  std::vector<Location> locations;
+  std::string norm;                    ///< "l1", "l2", "linf"
+  std::vector<double> times;           ///< [s]
+  std::string level;                   ///< "finest", "coarsest", "all"
+  std::string against;                 ///< variant to compare with
+  std::string quantity;                ///< conserved quantity
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  std::string reason;
+};
+
+/// A study: what to run, refine and measure, and what must hold. Read from TOML by read_study().
+struct Study {
+  std::string name, title, claim;
+  Suite suite = Suite::Full;
+  Comparison comparison = Comparison::Exact;
+  std::string solver_command;  ///< of an external solver; "" for ours
+  Ladder ladder;
+  std::vector<std::string> variants;
+  std::vector<PlannedRun> runs;  ///< variant by variant, coarse to fine
+  std::vector<CheckSpec> checks;
+  std::vector<reports::FigureRecord> figures;
+
+  [[nodiscard]] double particle_steps() const;
+  /// Runs of one variant, coarse to fine.
+  [[nodiscard]] std::vector<const PlannedRun*> runs_of(const std::string& variant) const;
+};
+
+}  // namespace verification

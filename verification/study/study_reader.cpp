@@ -1,0 +1,164 @@
+#include "verification/study/study_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/result_files.hpp"
+#include "verification/checks/check_reader.hpp"
+#include "verification/config/config_error.hpp"
+#include "verification/study/figure_reader.hpp"
+
+namespace verification {
+namespace {
+
+template <class Value>
+void require_ladder(const TomlTable& table, const std::string& key, const std::vector<Value>& values, bool rising) {
+  if (values.size() < 2) table.fail(key, "needs at least two levels");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!(values[i] > 0)) table.fail(key, "must be positive");
+    if (i > 0 && (rising ? values[i] <= values[i - 1] : values[i] >= values[i - 1]))
+      table.fail(key, "must run from coarse to fine");
+  }
+}
+
+Ladder read_ladder(TomlTable table, bool present) {
+  Ladder ladder;
+  if (!present) return ladder;
+  const std::string axis = table.text("axis");
+  if (axis == "space") {
+    ladder.axis = Axis::Space;
+    ladder.cells = table.integers("cells");
+    require_ladder(table, "cells", ladder.cells, true);
+    ladder.dt_exponent = table.number("dt_exponent", ladder.dt_exponent);
+  } else if (axis == "time") {
+    ladder.axis = Axis::Time;
+    ladder.dt = table.numbers("dt");
+    require_ladder(table, "dt", ladder.dt, false);
+    if (ladder.dt.size() < 3) table.fail("dt", "needs at least three levels: orders come from differences");
+  } else {
+    table.fail("axis", "must be \"space\" or \"time\"");
+  }
+  ladder.theoretical = table.positive("theoretical");
+  ladder.floor = table.positive("floor", ladder.floor);
+  table.refuse_unknown_keys();
+  return ladder;
+}
+
+/// Lays the values of one level over the scene. A space ladder scales a fixed dt; one from limits follows by itself.
+TomlTable at_level(const TomlTable& scene, const Ladder& ladder, int level, std::string& tag) {
+  TomlTable result = scene.overlaid_with(TomlTable::from_text("", ""), "");
+  const auto i = static_cast<std::size_t>(level);
+  if (ladder.axis == Axis::Space) {
+    result.set("discretisation.cells", ladder.cells[i]);
+    TomlTable time = result.table("time");
+    if (time.has("dt")) {
+      const double ratio = static_cast<double>(ladder.cells.front()) / ladder.cells[i];
+      result.set("time.dt", time.positive("dt") * std::pow(ratio, ladder.dt_exponent));
+    }
+    tag = "n" + std::to_string(ladder.cells[i]);
+  } else if (ladder.axis == Axis::Time) {
+    result.set("time.dt", ladder.dt[i]);
+    tag = "level" + std::to_string(level);
+  }
+  return result;
+}
+
+void plan_runs(Study& study, const TomlTable& scene, const std::string& variant) {
+  const Ladder& ladder = study.ladder;
+  const std::size_t levels =
+      ladder.axis == Axis::Space ? ladder.cells.size() : ladder.axis == Axis::Time ? ladder.dt.size() : 1;
+  for (std::size_t level = 0; level < levels; ++level) {
+    PlannedRun planned;
+    std::string tag;
+    planned.scene = read_scene_config(at_level(scene, ladder, static_cast<int>(level), tag));
+    planned.variant = variant;
+    planned.level = static_cast<int>(level);
+    planned.step = ladder.axis == Axis::Time ? ladder.dt[level] : planned.scene.cell_size();
+    planned.run = study.name + (variant.empty() ? "" : "." + variant) + (tag.empty() ? "" : "." + tag);
+    study.runs.push_back(std::move(planned));
+  }
+}
+
+void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
+  std::vector<TomlTable> variants = root.tables("variant");
+  if (variants.empty()) {
+    study.variants = {""};
+    plan_runs(study, base, "");
+    return;
+  }
+  for (TomlTable& variant : variants) {
+    const std::string name = variant.text("name");
+    if (!reports::is_plain_name(name) || name.find('.') != std::string::npos)
+      variant.fail("name", "may hold letters, digits and _ = - only");
+    if (std::ranges::count(study.variants, name) > 0) variant.fail("name", "'" + name + "' stands twice");
+    study.variants.push_back(name);
+    const TomlTable overrides = variant.restricted_to(scene_tables());
+    for (const std::string& key : scene_tables()) variant.accept(key);
+    variant.refuse_unknown_keys();
+    plan_runs(study, base.overlaid_with(overrides, "variant " + name), name);
+  }
+}
+
+void require_comparable(const TomlTable& root, const Study& study) {
+  if (study.comparison != Comparison::Discrete) return;
+  for (const PlannedRun& planned : study.runs) {
+    const SceneConfig& scene = planned.scene;
+    const bool usf_like = scene.scheme.stepping != mpm::Scheme::Stepping::Usl;
+    if (!usf_like || scene.time_step.dt == 0 || !scene.flow->exact_discrete(scene.discretisation, scene.time_step.dt))
+      root.fail("compare_with", "\"discrete\" is known for usf and musl channels with a fixed dt only (run " +
+                                    planned.run + ")");
+    for (const double t : scene.outputs)
+      if (std::abs(t / scene.time_step.dt - std::round(t / scene.time_step.dt)) > 1e-6)
+        root.fail("compare_with", "\"discrete\" needs output times that are multiples of dt (run " + planned.run + ")");
+  }
+}
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& file) {
+  TomlTable root = TomlTable::from_file(file.string());
+  Study study;
+  study.name = file.stem().string();
+  if (!reports::is_plain_name(study.name))
+    throw ConfigError(file.string() + ": the file's name is the study's: letters, digits and . _ = - only");
+  study.title = root.text("title");
+  study.claim = root.text("claim");
+  try {
+    study.suite = suite_named(root.text("suite", "full"));
+  } catch (const ConfigError& error) {
+    root.fail("suite", error.what());
+  }
+  const std::string comparison = root.text("compare_with", "exact");
+  if (comparison != "exact" && comparison != "discrete")
+    root.fail("compare_with", "must be \"exact\" or \"discrete\"");
+  study.comparison = comparison == "exact" ? Comparison::Exact : Comparison::Discrete;
+  study.ladder = read_ladder(root.table("ladder"), root.has("ladder"));
+  if (root.has("solver")) {
+    TomlTable solver = root.table("solver");
+    study.solver_command = solver.text("command");
+    solver.refuse_unknown_keys();
+  }
+  for (const std::string& key : scene_tables()) root.accept(key);
+  read_variants(study, root, root.restricted_to(scene_tables()));
+  require_comparable(root, study);
+  for (TomlTable& table : root.tables("check")) study.checks.push_back(read_check(table, study));
+  if (study.checks.empty()) root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");
+  for (TomlTable& table : root.tables("figure")) study.figures.push_back(read_figure(table, study));
+  root.refuse_unknown_keys();
+  return study;
+}
+
+std::vector<Study> read_studies(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, error))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  if (files.empty())
+    throw ConfigError(directory.string() + ": no studies (*.toml) here; give their directory with --studies DIR");
+  std::ranges::sort(files);
+  std::vector<Study> studies;
+  for (const auto& file : files) studies.push_back(read_study(file));
+  return studies;
+}
+
+}  // namespace verification

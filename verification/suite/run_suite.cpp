@@ -1,0 +1,185 @@
+#include "verification/suite/run_suite.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+#include "reports/atomic_file.hpp"
+#include "reports/io_error.hpp"
+#include "reports/result_files.hpp"
+#include "verification/checks/check_reader.hpp"
+#include "verification/study/measures.hpp"
+#include "verification/study/run_external.hpp"
+#include "verification/study/run_simulation.hpp"
+
+namespace verification {
+namespace {
+
+struct Job {
+  std::size_t study, run;
+  double cost;
+};
+
+std::vector<Job> longest_first(const std::vector<Study>& studies) {
+  std::vector<Job> jobs;
+  for (std::size_t s = 0; s < studies.size(); ++s)
+    for (std::size_t r = 0; r < studies[s].runs.size(); ++r)
+      jobs.push_back({s, r, studies[s].runs[r].scene.particle_steps()});
+  std::ranges::stable_sort(jobs, std::ranges::greater{}, &Job::cost);
+  return jobs;
+}
+
+/// A run that could not be simulated at all: recorded, so that the tables say so.
+RunData failed_run(const Study& study, const PlannedRun& plan, const std::string& why) {
+  RunData data;
+  data.plan = &plan;
+  const SceneConfig& scene = plan.scene;
+  data.record = {plan.run,
+                 study.name,
+                 scene.flow_name,
+                 scene.fluid.label,
+                 mpm::name(scene.scheme.basis),
+                 mpm::name(scene.scheme.transfer),
+                 mpm::name(scene.scheme.stepping),
+                 scene.discretisation.cells,
+                 scene.particles(),
+                 scene.segments.front().dt,
+                 0,
+                 "failed: " + why};
+  data.timing.run = plan.run;
+  return data;
+}
+
+class SuiteRunner {
+ public:
+  SuiteRunner(const std::vector<Study>& studies, std::filesystem::path out, const SuiteListener& listener)
+      : studies_(studies), out_(std::move(out)), listener_(listener), jobs_(longest_first(studies)) {
+    for (const Study& study : studies) {
+      StudyData data;
+      data.study = &study;
+      data.runs.resize(study.runs.size());
+      data_.push_back(std::move(data));
+      remaining_.push_back(study.runs.size());
+    }
+  }
+
+  SuiteOutcome run(int threads) {
+    reports::ensure_directory(out_ / "profiles");
+    reports::ensure_directory(out_ / "scenes");
+    std::vector<std::jthread> pool;
+    for (int i = 1; i < threads; ++i) pool.emplace_back([this] { work(); });
+    work();
+    pool.clear();
+    SuiteOutcome outcome{collect(), failures_};
+    std::ranges::sort(outcome.failures);
+    if (stop_cause_) {
+      try {
+        reports::write_results(out_, outcome.results);
+      } catch (const reports::IoError&) {
+        // The first failure is the one to report; what was written before it stays.
+      }
+      std::rethrow_exception(stop_cause_);
+    }
+    reports::write_results(out_, outcome.results);
+    return outcome;
+  }
+
+ private:
+  void work() {
+    while (!stopped_) {
+      const std::size_t next = next_++;
+      if (next >= jobs_.size()) return;
+      try {
+        perform(jobs_[next]);
+      } catch (...) {
+        const std::scoped_lock lock(mutex_);
+        if (!stop_cause_) stop_cause_ = std::current_exception();
+        stopped_ = true;
+      }
+    }
+  }
+
+  void perform(const Job& job) {
+    const Study& study = studies_[job.study];
+    const PlannedRun& plan = study.runs[job.run];
+    reports::write_file(out_ / "scenes" / (plan.run + ".toml"), plan.scene.toml);
+    RunData data = simulate(study, plan);
+    reports::write_profile(out_, plan.run, data.profile);
+    reports::write_history(out_, plan.run, data.history);
+
+    const std::scoped_lock lock(mutex_);
+    data_[job.study].runs[job.run] = std::move(data);
+    if (listener_.run_ended) listener_.run_ended(++done_, static_cast<long>(jobs_.size()), plan.run);
+    if (--remaining_[job.study] == 0) conclude(data_[job.study]);
+  }
+
+  RunData simulate(const Study& study, const PlannedRun& plan) {
+    RunData data;
+    try {
+      data = study.solver_command.empty() ? run_simulation(study, plan) : run_external(study, plan, out_);
+    } catch (const reports::IoError&) {
+      throw;
+    } catch (const std::exception& error) {
+      data = failed_run(study, plan, error.what());
+      const std::scoped_lock lock(mutex_);
+      failures_.push_back(plan.run + ": " + error.what());
+    }
+    data.errors = measure_errors(data);
+    return data;
+  }
+
+  void conclude(StudyData& data) {
+    measure_orders(data);
+    evaluate_checks(data);
+    for (RunData& run : data.runs) {
+      run.profile = {};  // on disk by now; a suite would hold gigabytes otherwise
+      run.history = {};
+    }
+    if (listener_.study_ended) listener_.study_ended(data);
+  }
+
+  [[nodiscard]] reports::Results collect() const {
+    reports::Results results;
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    for (std::size_t s = 0; s < studies_.size(); ++s) {
+      if (remaining_[s] > 0) continue;
+      const Study& study = studies_[s];
+      results.studies.push_back({study.name, study.title, study.claim, name(study.suite)});
+      for (const RunData& run : data_[s].runs) {
+        results.runs.push_back(run.record);
+        results.timings.push_back(run.timing);
+        append(results.errors, run.errors);
+      }
+      append(results.levels, data_[s].levels);
+      append(results.orders, data_[s].orders);
+      append(results.checks, data_[s].checks);
+      append(results.figures, study.figures);
+    }
+    return results;
+  }
+
+  const std::vector<Study>& studies_;
+  std::filesystem::path out_;
+  const SuiteListener& listener_;
+  std::vector<Job> jobs_;
+  std::vector<StudyData> data_;
+  std::vector<std::size_t> remaining_;
+  std::vector<std::string> failures_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<bool> stopped_{false};
+  std::mutex mutex_;
+  long done_ = 0;
+  std::exception_ptr stop_cause_;
+};
+
+}  // namespace
+
+SuiteOutcome run_suite(const std::vector<Study>& studies, const std::filesystem::path& out, int jobs,
+                       const SuiteListener& listener) {
+  return SuiteRunner(studies, out, listener).run(std::max(1, jobs));
+}
+
+}  // namespace verification
