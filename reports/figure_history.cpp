@@ -47,7 +47,13 @@ Figure history_figure(const std::filesystem::path& dir, const FigureRecord& reco
     }
   }
   const Unit speed = readable_length(largest);
-  FigureScript script(record.title, "t [s]", fmt::format("velocity at mid-height [{}/s]", speed.name));
+  // The probe of a channel is at mid-height; other scenes have theirs elsewhere.
+  const bool channels = std::all_of(runs.begin(), runs.end(), [](const LabelledRun& run) {
+    return run.run->scene.ends_with("poiseuille") || run.run->scene == "couette";
+  });
+  FigureScript script(
+      record.title, "t [s]",
+      fmt::format("velocity at {} [{}/s]", channels ? "mid-height" : "the probe", speed.name));
   const bool one_line = coincide(exact, largest);
   bool any_exact = false;
   for (std::size_t r = 0; r < runs.size(); ++r) {

@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-// The rows of every result file. Whoever writes these (our driver or somebody else's) can have a report made of
-// them: reports/ reads nothing else. SI units; a quantity that does not exist is NaN, a word that does not is "".
+// The rows of every result file. Whoever writes these (our driver or somebody else's) can have a report made
+// of them: reports/ reads nothing else. SI units; a quantity that does not exist is NaN, a word that does not
+// is "".
 namespace reports {
 
 /// studies.csv: what was asked.
@@ -35,26 +36,27 @@ struct LevelRecord {
   std::string study, variant;
   std::string axis;  ///< "space" or "time"
   std::string location, norm;
-  double t = 0;      ///< [s]
-  double step = 0;   ///< refined quantity: cell size h [m] for "space", dt [s] for "time"
-  double value = 0;  ///< "space": relative error norm; "time": relative norm of the difference to the next finer dt
+  double t = 0;     ///< [s]
+  double step = 0;  ///< refined quantity: cell size h [m] for "space", dt [s] for "time"
+  double value =
+      0;  ///< "space": relative error norm; "time": relative norm of the difference to the next finer dt
   bool used = true;  ///< false when dropped from the fit (at the round-off floor, or not finite)
 };
 
 /// orders.csv: the convergence order observed on one ladder.
 struct OrderRecord {
   std::string study, variant, axis, location, norm;
-  double t = 0;                         ///< [s]
-  double theoretical = 0;               ///< order that theory gives; NaN where none is claimed
-  double observed = 0;                  ///< least-squares slope over the levels used
-  double ci_lower = 0, ci_upper = 0;    ///< its 95 % confidence interval (Student t)
-  long levels_used = 0, levels = 0;     ///< in the fit, in the ladder
-  std::string classification;           ///< "monotone", "oscillatory", "divergent", "floor", "invalid"
-  std::string pairwise;                 ///< orders between neighbouring levels, coarse to fine, joined by ';'
-  double gci = 0;                       ///< grid convergence index of the finest level, relative [-]
-  double gci_safety_factor = 0;         ///< 1.25 or 3
-  double uncertainty = 0;               ///< Eca-Hoekstra 95 % uncertainty of the finest level, relative [-]
-  std::string quantity;                 ///< the scalar that gci and uncertainty speak of
+  double t = 0;                       ///< [s]
+  double theoretical = 0;             ///< order that theory gives; NaN where none is claimed
+  double observed = 0;                ///< least-squares slope over the levels used
+  double ci_lower = 0, ci_upper = 0;  ///< its 95 % confidence interval (Student t)
+  long levels_used = 0, levels = 0;   ///< in the fit, in the ladder
+  std::string classification;         ///< "monotone", "oscillatory", "divergent", "floor", "invalid"
+  std::string pairwise;               ///< orders between neighbouring levels, coarse to fine, joined by ';'
+  double gci = 0;                     ///< grid convergence index of the finest level, relative [-]
+  double gci_safety_factor = 0;       ///< 1.25 or 3
+  double uncertainty = 0;             ///< Eca-Hoekstra 95 % uncertainty of the finest level, relative [-]
+  std::string quantity;               ///< the scalar that gci and uncertainty speak of
 };
 
 /// checks.csv: one statement that must hold. Passes when lower <= observed <= upper; NaN never passes.
@@ -69,12 +71,12 @@ struct CheckRecord {
 /// timing.csv: the only file that may differ between two runs of the same build.
 struct TimingRecord {
   std::string run;
-  double wall_s = 0;                    ///< [s]
-  double particle_steps_per_s = 0;      ///< [1/s]
+  double wall_s = 0;                ///< [s]
+  double particle_steps_per_s = 0;  ///< [1/s]
 };
 
-/// profiles/<run>.csv: velocity at points. location: "grid", "particles", or "exact" (a fine line for figures,
-/// numerical columns NaN). u, v along x, y.
+/// profiles/<run>.csv: velocity at points. location: "grid", "particles", or "exact" (a fine line for
+/// figures, numerical columns NaN). u, v along x, y.
 struct ProfileRow {
   double t = 0;  ///< [s]
   std::string location;
@@ -85,26 +87,26 @@ struct ProfileRow {
 
 /// profiles/<run>.history.csv: scalars against time.
 struct HistoryRow {
-  double t = 0;                              ///< [s]
-  double probe = 0, probe_exact = 0;         ///< streamwise velocity at the probe (mid-height) [m/s]
-  double mass = 0;                           ///< total mass per unit depth [kg/m]
-  double momentum_x = 0, momentum_y = 0;     ///< total momentum per unit depth [kg/s]
-  double impulse_x = 0, impulse_y = 0;       ///< time integral of body and wall forces per unit depth [kg/s]
-  double kinetic_energy = 0;                 ///< of the particles per unit depth [J/m]
+  double t = 0;                           ///< [s]
+  double probe = 0, probe_exact = 0;      ///< streamwise velocity at the probe (mid-height) [m/s]
+  double mass = 0;                        ///< total mass per unit depth [kg/m]
+  double momentum_x = 0, momentum_y = 0;  ///< total momentum per unit depth [kg/s]
+  double impulse_x = 0, impulse_y = 0;    ///< time integral of body and wall forces per unit depth [kg/s]
+  double kinetic_energy = 0;              ///< of the particles per unit depth [J/m]
 };
 
 /// figures.csv: what to draw from the files above. Lists are joined by ';'.
 struct FigureRecord {
-  std::string figure;      ///< file stem, unique
+  std::string figure;  ///< file stem, unique
   std::string study;
-  std::string kind;        ///< "profiles", "history", "convergence", "work-precision"
-  std::string title;       ///< the claim that the figure shows
-  std::string runs;        ///< runs to draw (profiles, history, work-precision); "" = all of the study
-  std::string labels;      ///< a legend entry for each run; "" = run names
-  std::string across;      ///< coordinate of profiles: "x" or "y"
-  std::string component;   ///< velocity component of profiles: "u" or "v"
-  std::string location;    ///< "grid", "particles", or "grid;particles"
-  std::string norm;        ///< convergence, work-precision: "l1", "l2", "linf"
+  std::string kind;       ///< "profiles", "history", "convergence", "work-precision"
+  std::string title;      ///< the claim that the figure shows
+  std::string runs;       ///< runs to draw (profiles, history, work-precision); "" = all of the study
+  std::string labels;     ///< a legend entry for each run; "" = run names
+  std::string across;     ///< coordinate of profiles: "x" or "y"
+  std::string component;  ///< velocity component of profiles: "u" or "v"
+  std::string location;   ///< "grid", "particles", or "grid;particles"
+  std::string norm;       ///< convergence, work-precision: "l1", "l2", "linf"
 };
 
 /// The content of one result directory, profiles and histories excepted (they are read run by run).

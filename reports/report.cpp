@@ -53,6 +53,13 @@ void warn_of_contradictions(ReportData& data) {
 
 }  // namespace
 
+std::vector<std::string> write_figures(const std::filesystem::path& dir) {
+  ReportData data;
+  data.results = read_results(dir);
+  draw_figures(dir, data);
+  return data.warnings;
+}
+
 ReportOutcome write_report(const std::filesystem::path& dir) {
   ReportData data;
   data.results = read_results(dir);

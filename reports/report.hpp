@@ -13,6 +13,10 @@ struct ReportOutcome {
   std::vector<std::string> warnings;  ///< one line each; they stand in the report too
 };
 
+/// Make figures/ of a result directory alone. Returns warnings, one line each. @throws IoError as
+/// write_report().
+std::vector<std::string> write_figures(const std::filesystem::path& dir);
+
 /// Make figures/, report.md, report.html and junit.xml of a result directory from its CSV files and
 /// provenance.json alone. The same files give the same bytes. A missing or failing gnuplot costs the figures
 /// and one warning.

@@ -32,8 +32,8 @@ class Simulation {
 
   [[nodiscard]] virtual const Particles& particles() const = 0;
 
-  /// The grid field at time t [s] at the given points: the particles mapped to the grid with the walls' velocity
-  /// imposed, interpolated with the basis [m/s]. Leaves the state as it is.
+  /// The grid field at time t [s] at the given points: the particles mapped to the grid with the walls'
+  /// velocity imposed, interpolated with the basis [m/s]. Leaves the state as it is.
   [[nodiscard]] virtual VectorField grid_field(const VectorField& points, double t) const = 0;
 
   [[nodiscard]] virtual Totals totals() const = 0;

@@ -19,10 +19,13 @@ std::string joined(int argc, char** argv) {
 
 int dispatch(int argc, char** argv) {
   using namespace verification;
-  CLI::App app("Verification of particle solvers of viscous flow: refinement studies, exact solutions, a verdict.");
+  CLI::App app(
+      "Verification of particle solvers of viscous flow: refinement studies, exact solutions, a verdict.");
   app.set_version_flag("--version", std::string(build_info::version) + " (" + build_info::commit + ")");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 all checks pass, 1 a check failed, 2 usage or configuration, 3 internal or solver error.");
+  app.footer(
+      "Exit codes: 0 all checks pass, 1 a check failed, 2 usage or configuration, 3 internal or solver "
+      "error.");
 
   std::string studies = build_info::studies;
   ListOptions list;
@@ -32,19 +35,23 @@ int dispatch(int argc, char** argv) {
 
   RunOptions run;
   auto* run_app = app.add_subcommand("run", "Run studies and judge them");
-  run_app->add_option("STUDY", run.names, "Names of studies or paths of study files (default: the whole suite)");
+  run_app->add_option("STUDY", run.names,
+                      "Names of studies or paths of study files (default: the whole suite)");
   run_app->add_option("--suite", run.suite, "quick, full or deep (default: full)");
   run_app->add_option("--out", run.out, "Directory of the results")->capture_default_str();
-  run_app->add_option("--jobs", run.jobs, "Runs at the same time (default: one a core)")->check(CLI::Range(1, 1024));
+  run_app->add_option("--jobs", run.jobs, "Runs at the same time (default: one a core)")
+      ->check(CLI::Range(1, 1024));
   run_app->add_option("--studies", studies, "Directory of the studies");
 
   std::string report_dir;
-  auto* report_app = app.add_subcommand("report", "Rebuild figures and reports from the CSV files of a directory");
+  auto* report_app =
+      app.add_subcommand("report", "Rebuild figures and reports from the CSV files of a directory");
   report_app->add_option("DIR", report_dir, "Directory of results")->required();
 
   SceneOptions scene;
   auto* solve_app = app.add_subcommand("solve", "One simulation of a scene");
-  auto* reference_app = app.add_subcommand("reference", "The exact or reference profiles of a scene, no solver");
+  auto* reference_app =
+      app.add_subcommand("reference", "The exact or reference profiles of a scene, no solver");
   for (auto* sub : {solve_app, reference_app}) {
     sub->add_option("SCENE", scene.scene, "Scene file (TOML)")->required();
     sub->add_option("--out", scene.out, "Directory of the results")->required();

@@ -4,7 +4,8 @@
 
 namespace {
 
-/// The paper's Poiseuille scene: 20 cells across, 2 x 2 particles a cell; `cells_along` sets the number of particles.
+/// The paper's Poiseuille scene: 20 cells across, 2 x 2 particles a cell; `cells_along` sets the number of
+/// particles.
 mpm::Scene paper_scene(int cells_along, bool pressure) {
   constexpr double height = 1e-3;
   mpm::Scene scene;
@@ -29,8 +30,8 @@ void step(benchmark::State& state, mpm::Scheme::Stepping stepping, bool pressure
     t += dt;
   }
   state.counters["particles"] = static_cast<double>(simulation->particles().size());
-  state.counters["particle_steps_per_s"] =
-      benchmark::Counter(static_cast<double>(simulation->particles().size()), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["particle_steps_per_s"] = benchmark::Counter(
+      static_cast<double>(simulation->particles().size()), benchmark::Counter::kIsIterationInvariantRate);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST_CASE("a scene that cannot be meant is refused with file, key and remedy") {
   check_refused(solve(with("dt = 1e-3", "dt = nan")), "'time.dt'");
   check_refused(solve(with("cells = 10", "cells = 0")), "'discretisation.cells'");
   check_refused(solve(with("cells = 10", "cells = 10.5")), "'discretisation.cells'");
-  check_refused(solve(with("height", "hieght")), "height");
+  check_refused(solve(with("height", "hieght")), "did you mean 'height'?");
   check_refused(solve(with("pressure", "presure")), "'fluid.presure'");
   check_refused(solve(with("\"poiseuille\"", "\"poisuille\"")), "poiseuille");
   check_refused(solve(with("= 1e-6", "= ")), "scene.toml:6");

@@ -14,18 +14,20 @@ namespace {
 using Records = std::vector<reports::CheckRecord>;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::string label(const std::string& variant) { return variant.empty() ? "" : variant + ": "; }
+std::string label(const std::string& variant) {
+  return variant.empty() ? "" : variant + ": ";
+}
 
 // ---- keys that several kinds share
 
 void require_upper(TomlTable& table, CheckSpec& spec, double lower) {
-  if (!std::isfinite(spec.upper)) table.fail("upper", "is missing; give the tolerance");
+  if (!table.has("upper")) table.fail_missing("upper", "give the tolerance");
   if (!std::isfinite(spec.lower)) spec.lower = lower;
 }
 
-void require_band(TomlTable& table, const CheckSpec& spec) {
-  if (!std::isfinite(spec.lower)) table.fail("lower", "is missing; give a two-sided band");
-  if (!std::isfinite(spec.upper)) table.fail("upper", "is missing; give a two-sided band");
+void require_band(TomlTable& table) {
+  for (const char* key : {"lower", "upper"})
+    if (!table.has(key)) table.fail_missing(key, "give a two-sided band");
 }
 
 void read_locations(TomlTable& table, CheckSpec& spec) {
@@ -60,7 +62,8 @@ void read_level(TomlTable& table, CheckSpec& spec) {
     table.fail("level", "must be \"finest\", \"coarsest\" or \"all\"");
 }
 
-std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& data, const std::string& variant) {
+std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& data,
+                                      const std::string& variant) {
   auto runs = data.runs_of(variant);
   if (spec.level == "finest") return {runs.back()};
   if (spec.level == "coarsest") return {runs.front()};
@@ -69,7 +72,8 @@ std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& da
 
 /// "variant: n20" where a check speaks of several levels.
 std::string label(const CheckSpec& spec, const RunData& run) {
-  if (spec.level != "all" || run.record.run.size() <= run.record.study.size()) return label(run.plan->variant);
+  if (spec.level != "all" || run.record.run.size() <= run.record.study.size())
+    return label(run.plan->variant);
   return run.record.run.substr(run.record.study.size() + 1) + ": ";
 }
 
@@ -99,7 +103,7 @@ void evaluate_error(const CheckSpec& spec, const StudyData& data, Records& recor
 
 void read_order(TomlTable& table, const Study& study, CheckSpec& spec) {
   if (study.ladder.axis == Axis::None) table.fail("kind", "\"order\" needs a [ladder]");
-  require_band(table, spec);
+  require_band(table);
   read_locations(table, spec);
   read_norm(table, spec);
   read_times(table, study, spec);
@@ -109,7 +113,8 @@ void evaluate_order(const CheckSpec& spec, const StudyData& data, Records& recor
   for (const reports::OrderRecord& order : data.orders)
     for (const Location location : spec.locations)
       if (order.location == name(location) && order.norm == spec.norm &&
-          std::ranges::count(spec.variants, order.variant) > 0 && std::ranges::count(spec.times, order.t) > 0) {
+          std::ranges::count(spec.variants, order.variant) > 0 &&
+          std::ranges::count(spec.times, order.t) > 0) {
         const double observed = order.classification == "monotone" ? order.observed : nan;
         records.push_back(judge(spec, data,
                                 fmt::format("{}{} order, {} {}, t = {} s", label(order.variant), order.axis,
@@ -121,7 +126,7 @@ void evaluate_order(const CheckSpec& spec, const StudyData& data, Records& recor
 // ---- particle-bias: mean signed particle error in the middle half of the gap, in units of h^2 F/nu
 
 void read_bias(TomlTable& table, const Study& study, CheckSpec& spec) {
-  require_band(table, spec);
+  require_band(table);
   read_times(table, study, spec);
   read_level(table, spec);
   for (const PlannedRun& run : study.runs)
@@ -159,8 +164,8 @@ void evaluate_difference(const CheckSpec& spec, const StudyData& data, Records& 
       for (const Location location : spec.locations)
         for (const double t : spec.times)
           records.push_back(judge(spec, data,
-                                  fmt::format("{}largest difference from {}, {}, t = {} s", label(spec, *runs[k]),
-                                              spec.against, name(location), t),
+                                  fmt::format("{}largest difference from {}, {}, t = {} s",
+                                              label(spec, *runs[k]), spec.against, name(location), t),
                                   largest_difference(*runs[k], *others[k], t, location), "1"));
   }
 }
@@ -184,12 +189,15 @@ void evaluate_conservation(const CheckSpec& spec, const StudyData& data, Records
 
 // ---- divergence: these runs, and no others, must break down
 
-void read_divergence(TomlTable&, const Study&, CheckSpec& spec) { spec.lower = spec.upper = 1; }
+void read_divergence(TomlTable&, const Study&, CheckSpec& spec) {
+  spec.lower = spec.upper = 1;
+}
 
 void evaluate_divergence(const CheckSpec& spec, const StudyData& data, Records& records) {
   for (const RunData& run : data.runs) {
     const bool expected = std::ranges::count(spec.variants, run.plan->variant) > 0;
-    records.push_back(judge(spec, data, fmt::format("{} {}", run.record.run, expected ? "diverges" : "completes"),
+    records.push_back(judge(spec, data,
+                            fmt::format("{} {}", run.record.run, expected ? "diverges" : "completes"),
                             run.completed() != expected ? 1 : 0, "truth"));
   }
 }

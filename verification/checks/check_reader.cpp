@@ -44,10 +44,11 @@ CheckSpec read_check(TomlTable& table, const Study& study) {
   return spec;
 }
 
-reports::CheckRecord judge(const CheckSpec& spec, const StudyData& data, const std::string& check, double observed,
-                           const std::string& unit) {
+reports::CheckRecord judge(const CheckSpec& spec, const StudyData& data, const std::string& check,
+                           double observed, const std::string& unit) {
   const bool holds = spec.lower <= observed && observed <= spec.upper;
-  return {data.study->name, check, observed, spec.lower, spec.upper, unit, holds ? "pass" : "fail", spec.reason};
+  return {data.study->name,        check,      observed, spec.lower, spec.upper, unit,
+          holds ? "pass" : "fail", spec.reason};
 }
 
 void evaluate_checks(StudyData& data) {

@@ -4,7 +4,8 @@
 
 namespace verification {
 
-/// A kind of check: which keys it reads and what it observes. Adding one: two functions, one line in the table.
+/// A kind of check: which keys it reads and what it observes. Adding one: two functions, one line in the
+/// table.
 struct CheckKind {
   const char* name;
   void (*read)(TomlTable& table, const Study& study, CheckSpec& spec);
@@ -17,11 +18,12 @@ const std::vector<CheckKind>& check_kinds();
 /// Reads one [[check]]: kind, reason, bounds, variants, and the keys of its kind. Throws ConfigError.
 CheckSpec read_check(TomlTable& table, const Study& study);
 
-/// Judges every check of the study, and that each run completed unless a check says what else should become of it.
+/// Judges every check of the study, and that each run completed unless a check says what else should become
+/// of it.
 void evaluate_checks(StudyData& data);
 
 /// lower <= observed <= upper; a NaN fails.
-reports::CheckRecord judge(const CheckSpec& spec, const StudyData& data, const std::string& check, double observed,
-                           const std::string& unit);
+reports::CheckRecord judge(const CheckSpec& spec, const StudyData& data, const std::string& check,
+                           double observed, const std::string& unit);
 
 }  // namespace verification

@@ -13,7 +13,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A sample in the flow's own frame.
 struct Sample {
-  double place;            // across [m]
+  double place;               // across [m]
   double streamwise, across;  // [m/s]
 };
 
@@ -29,7 +29,9 @@ std::vector<Sample> samples_across(const RunData& run, double t, Location locati
 }
 
 /// std::max that keeps a NaN.
-double worst(double a, double b) { return std::isnan(a) || std::isnan(b) ? nan : std::max(a, b); }
+double worst(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? nan : std::max(a, b);
+}
 
 }  // namespace
 
@@ -49,7 +51,8 @@ double particle_bias(const RunData& run, double t) {
 
 double largest_difference(const RunData& run, const RunData& other, double t, Location location) {
   const Flow& flow = *run.plan->scene.flow;
-  const double tolerance = 1e-9 * flow.length();  // places are computed alike up to rounding; rows lie far wider apart
+  const double tolerance =
+      1e-9 * flow.length();  // places are computed alike up to rounding; rows lie far wider apart
   const std::vector<Sample> samples = samples_across(run, t, location);
   std::vector<Sample> counterparts = samples_across(other, t, location);
   if (samples.empty() || counterparts.empty()) return nan;

@@ -19,7 +19,7 @@ struct RunOptions {
   std::vector<std::string> names;  ///< of studies, or paths of study files; empty: the suite
   std::string suite;               ///< "": full, or all that is named
   std::filesystem::path out = "results";
-  int jobs = 0;                    ///< 0: as many as there are cores
+  int jobs = 0;  ///< 0: as many as there are cores
   std::string command_line;
 };
 int run_command(const RunOptions& options);

@@ -9,19 +9,21 @@ int list_command(const ListOptions& options) {
   const Suite suite = suite_named(options.suite);
   // What one core of a present machine does with the solver's plain loops; an estimate, and said to be one.
   constexpr double particle_steps_per_second = 20e6;
-  fmt::print("{:<30} {:<6} {:>5} {:>16} {:>8}  {}\n", "study", "suite", "runs", "particle-steps", "about", "claim");
+  fmt::print("{:<30} {:<6} {:>5} {:>16} {:>8}  {}\n", "study", "suite", "runs", "particle-steps", "about",
+             "claim");
   double total = 0;
   long runs = 0;
   for (const Study& study : read_studies(options.studies)) {
     if (study.suite > suite) continue;
     const double cost = study.particle_steps();
-    fmt::print("{:<30} {:<6} {:>5} {:>16.3g} {:>6.1f} s  {}\n", study.name, name(study.suite), study.runs.size(), cost,
-               cost / particle_steps_per_second, study.claim);
+    fmt::print("{:<30} {:<6} {:>5} {:>16.3g} {:>6.1f} s  {}\n", study.name, name(study.suite),
+               study.runs.size(), cost, cost / particle_steps_per_second, study.claim);
     total += cost;
     runs += static_cast<long>(study.runs.size());
   }
-  fmt::print("{:<30} {:<6} {:>5} {:>16.3g} {:>6.1f} s  on one core at {:.0f} million particle-steps/s\n", "total",
-             name(suite), runs, total, total / particle_steps_per_second, particle_steps_per_second / 1e6);
+  fmt::print("{:<30} {:<6} {:>5} {:>16.3g} {:>6.1f} s  on one core at {:.0f} million particle-steps/s\n",
+             "total", name(suite), runs, total, total / particle_steps_per_second,
+             particle_steps_per_second / 1e6);
   return 0;
 }
 

@@ -18,7 +18,8 @@ namespace {
 
 /// Studies named by the user (a name, or the path of a .toml file), or those of the suite.
 std::vector<Study> chosen_studies(const RunOptions& options) {
-  const Suite suite = suite_named(options.suite.empty() ? (options.names.empty() ? "full" : "deep") : options.suite);
+  const Suite suite =
+      suite_named(options.suite.empty() ? (options.names.empty() ? "full" : "deep") : options.suite);
   std::vector<Study> chosen;
   if (options.names.empty()) {
     for (Study& study : read_studies(options.studies))
@@ -27,7 +28,8 @@ std::vector<Study> chosen_studies(const RunOptions& options) {
   }
   for (const std::string& name : options.names) {
     const bool is_file = name.ends_with(".toml");
-    const std::filesystem::path file = is_file ? std::filesystem::path(name) : options.studies / (name + ".toml");
+    const std::filesystem::path file =
+        is_file ? std::filesystem::path(name) : options.studies / (name + ".toml");
     if (!is_file && !std::filesystem::exists(file))
       throw ConfigError("study '" + name + "' is not known in " + options.studies.string() +
                         "; `mpm-verify list` names them, and a path ending in .toml is read as a file");
@@ -40,12 +42,15 @@ std::vector<Study> chosen_studies(const RunOptions& options) {
 }
 
 void print_study_line(const StudyData& data, bool colour) {
-  const auto failed = std::ranges::count_if(data.checks, [](const auto& check) { return check.verdict != "pass"; });
+  const auto failed =
+      std::ranges::count_if(data.checks, [](const auto& check) { return check.verdict != "pass"; });
   double wall = 0;
   for (const RunData& run : data.runs) wall += run.timing.wall_s;
-  const char* verdict = failed ? (colour ? "\033[31mFAIL\033[0m" : "FAIL") : (colour ? "\033[32mpass\033[0m" : "pass");
+  const char* verdict =
+      failed ? (colour ? "\033[31mFAIL\033[0m" : "FAIL") : (colour ? "\033[32mpass\033[0m" : "pass");
   fmt::print("{} {:<34} {:>4} of {:>4} checks {:>5} runs {:>8.2f} s\n", verdict, data.study->name,
-             data.checks.size() - static_cast<std::size_t>(failed), data.checks.size(), data.runs.size(), wall);
+             data.checks.size() - static_cast<std::size_t>(failed), data.checks.size(), data.runs.size(),
+             wall);
   std::fflush(stdout);
 }
 
@@ -54,7 +59,8 @@ void print_study_line(const StudyData& data, bool colour) {
 int run_command(const RunOptions& options) {
   const std::vector<Study> studies = chosen_studies(options);
   if (studies.empty()) throw ConfigError("no study of that suite: nothing would be verified");
-  const int jobs = options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int jobs =
+      options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 
   SuiteListener listener;
   const bool progress = show_progress(), colour = use_colour();

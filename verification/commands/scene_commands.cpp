@@ -17,7 +17,8 @@ Study study_of_scene(const SceneOptions& options) {
   Study study;
   study.name = options.scene.stem().string();
   if (!reports::is_plain_name(study.name))
-    throw ConfigError(options.scene.string() + ": the file's name becomes the run's: letters, digits and . _ = - only");
+    throw ConfigError(options.scene.string() +
+                      ": the file's name becomes the run's: letters, digits and . _ = - only");
   study.variants = {""};
   PlannedRun planned;
   planned.scene = read_scene_config(TomlTable::from_file(options.scene.string()));
@@ -69,12 +70,16 @@ int solve_command(const SceneOptions& options) {
   results.runs.push_back(data.record);
   results.timings.push_back(data.timing);
   results.errors = data.errors;
-  results.figures = {figure_of(study, "profiles", study.runs.front().scene.flow_name + ": velocity profiles"),
-                     figure_of(study, "history", study.runs.front().scene.flow_name + ": velocity at the probe")};
+  results.figures = {
+      figure_of(study, "profiles", study.runs.front().scene.flow_name + ": velocity profiles"),
+      figure_of(study, "history", study.runs.front().scene.flow_name + ": velocity at the probe")};
   reports::write_results(options.out, results);
+  for (const std::string& warning : reports::write_figures(options.out))
+    fmt::print(stderr, "warning: {}\n", warning);
 
-  fmt::print("{}: {}; {} particles, {} steps, {:.3g} s, {:.3g} particle-steps/s\n", data.record.run, data.record.status,
-             data.record.particles, data.record.steps, data.timing.wall_s, data.timing.particle_steps_per_s);
+  fmt::print("{}: {}; {} particles, {} steps, {:.3g} s, {:.3g} particle-steps/s\n", data.record.run,
+             data.record.status, data.record.particles, data.record.steps, data.timing.wall_s,
+             data.timing.particle_steps_per_s);
   if (study.runs.front().scene.flow->exact()) {
     fmt::print("errors relative to {:.6g} m/s\n{:>12} {:<10} {:>12} {:>12} {:>12}\n",
                study.runs.front().scene.flow->velocity_scale(), "t [s]", "location", "L1", "L2", "Linf");

@@ -4,7 +4,6 @@
 
 #include <cstdlib>
 
-
 namespace verification {
 
 /// Colour is for a terminal whose user has not said NO_COLOR (no-color.org).
@@ -14,6 +13,8 @@ inline bool use_colour() {
 }
 
 /// Progress belongs on a terminal; a log gets none.
-inline bool show_progress() { return isatty(STDERR_FILENO); }
+inline bool show_progress() {
+  return isatty(STDERR_FILENO);
+}
 
 }  // namespace verification

@@ -86,7 +86,9 @@ long SceneConfig::steps() const {
   return sum;
 }
 
-double SceneConfig::particle_steps() const { return static_cast<double>(particles()) * static_cast<double>(steps()); }
+double SceneConfig::particle_steps() const {
+  return static_cast<double>(particles()) * static_cast<double>(steps());
+}
 
 SceneConfig read_scene_config(TomlTable root) {
   SceneConfig config;

@@ -11,7 +11,8 @@
 
 namespace verification {
 
-/// One simulation as the user states it: the tables scene, fluid, discretisation, scheme and time of a TOML file.
+/// One simulation as the user states it: the tables scene, fluid, discretisation, scheme and time of a TOML
+/// file.
 struct SceneConfig {
   std::string toml;       ///< text that reproduces it
   std::string flow_name;  ///< scene.flow
@@ -20,9 +21,9 @@ struct SceneConfig {
   Discretisation discretisation;
   mpm::Scheme scheme;
   mpm::TimeStepRule time_step;
-  std::vector<double> outputs;   ///< output times, increasing [s]
-  int history_samples = 0;       ///< points in the history, evenly spread over the run
-  mpm::Scene scene;              ///< the solver's scene that follows from all this
+  std::vector<double> outputs;  ///< output times, increasing [s]
+  int history_samples = 0;      ///< points in the history, evenly spread over the run
+  mpm::Scene scene;             ///< the solver's scene that follows from all this
   std::vector<mpm::Segment> segments;
 
   [[nodiscard]] long particles() const;

@@ -2,10 +2,13 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "verification/config/config_error.hpp"
 
@@ -25,6 +28,19 @@ std::string line_of(const toml::node* node) {
   return ":" + std::to_string(node->source().begin.line);
 }
 
+/// Levenshtein distance.
+std::size_t edits(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j)
+      diagonal =
+          std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])}));
+  }
+  return row.back();
+}
+
 void overlay(toml::table& base, const toml::table& overrides) {
   for (const auto& [key, value] : overrides) {
     toml::table* into = base[key.str()].as_table();
@@ -39,7 +55,8 @@ template <class Value>
 void set_at(toml::table& root, const std::string& path, Value value) {
   toml::table* table = &root;
   std::size_t begin = 0;
-  for (std::size_t dot = path.find('.'); dot != std::string::npos; begin = dot + 1, dot = path.find('.', begin)) {
+  for (std::size_t dot = path.find('.'); dot != std::string::npos;
+       begin = dot + 1, dot = path.find('.', begin)) {
     const std::string key = path.substr(begin, dot - begin);
     if (!table->get_as<toml::table>(key)) table->insert_or_assign(key, toml::table{});
     table = table->get_as<toml::table>(key);
@@ -73,7 +90,17 @@ TomlTable TomlTable::from_text(const std::string& text, const std::string& origi
 }
 
 void TomlTable::fail(const std::string& key, const std::string& problem) const {
-  throw ConfigError(data_->origin + line_of(data_->table.get(key)) + ": key '" + data_->path + key + "': " + problem);
+  throw ConfigError(data_->origin + line_of(data_->table.get(key)) + ": key '" + data_->path + key +
+                    "': " + problem);
+}
+
+void TomlTable::fail_missing(const std::string& key, const std::string& remedy) const {
+  for (const auto& [other, value] : data_->table) {
+    const std::string name(other.str());
+    if (!data_->read.contains(name) && edits(name, key) <= 2)
+      fail(name, "is not known here; did you mean '" + key + "'?");
+  }
+  fail(key, "is missing; " + remedy);
 }
 
 bool TomlTable::has(const std::string& key) {
@@ -81,7 +108,9 @@ bool TomlTable::has(const std::string& key) {
   return data_->table.contains(key);
 }
 
-void TomlTable::accept(const std::string& key) { data_->read.insert(key); }
+void TomlTable::accept(const std::string& key) {
+  data_->read.insert(key);
+}
 
 namespace {
 
@@ -94,7 +123,8 @@ double finite_number(const TomlTable& table, const std::string& key, const toml:
 
 int whole_number(const TomlTable& table, const std::string& key, const toml::node* node) {
   const double value = finite_number(table, key, node);
-  if (value != std::floor(value) || std::abs(value) > 1e9) table.fail(key, "must be a whole number below 1e9");
+  if (value != std::floor(value) || std::abs(value) > 1e9)
+    table.fail(key, "must be a whole number below 1e9");
   return static_cast<int>(value);
 }
 
@@ -115,37 +145,41 @@ auto list(const TomlTable& table, const std::string& key, const toml::node* node
 }  // namespace
 
 double TomlTable::number(const std::string& key) {
-  if (!has(key)) fail(key, "is missing; give a number");
+  if (!has(key)) fail_missing(key, "give a number");
   return finite_number(*this, key, data_->table.get(key));
 }
 
 int TomlTable::integer(const std::string& key) {
-  if (!has(key)) fail(key, "is missing; give a whole number");
+  if (!has(key)) fail_missing(key, "give a whole number");
   return whole_number(*this, key, data_->table.get(key));
 }
 
 std::string TomlTable::text(const std::string& key) {
-  if (!has(key)) fail(key, "is missing; give a text in quotes");
+  if (!has(key)) fail_missing(key, "give a text in quotes");
   return word(*this, key, data_->table.get(key));
 }
 
 std::vector<double> TomlTable::numbers(const std::string& key) {
-  if (!has(key)) fail(key, "is missing; give a list of numbers");
+  if (!has(key)) fail_missing(key, "give a list of numbers");
   return list(*this, key, data_->table.get(key), finite_number);
 }
 
 std::vector<int> TomlTable::integers(const std::string& key) {
-  if (!has(key)) fail(key, "is missing; give a list of whole numbers");
+  if (!has(key)) fail_missing(key, "give a list of whole numbers");
   return list(*this, key, data_->table.get(key), whole_number);
 }
 
 std::vector<std::string> TomlTable::texts(const std::string& key) {
-  if (!has(key)) fail(key, "is missing; give a list of texts");
+  if (!has(key)) fail_missing(key, "give a list of texts");
   return list(*this, key, data_->table.get(key), word);
 }
 
-double TomlTable::number(const std::string& key, double absent) { return has(key) ? number(key) : absent; }
-int TomlTable::integer(const std::string& key, int absent) { return has(key) ? integer(key) : absent; }
+double TomlTable::number(const std::string& key, double absent) {
+  return has(key) ? number(key) : absent;
+}
+int TomlTable::integer(const std::string& key, int absent) {
+  return has(key) ? integer(key) : absent;
+}
 std::string TomlTable::text(const std::string& key, const std::string& absent) {
   return has(key) ? text(key) : absent;
 }
@@ -162,7 +196,9 @@ double TomlTable::positive(const std::string& key) {
   return value;
 }
 
-double TomlTable::positive(const std::string& key, double absent) { return has(key) ? positive(key) : absent; }
+double TomlTable::positive(const std::string& key, double absent) {
+  return has(key) ? positive(key) : absent;
+}
 
 TomlTable TomlTable::table(const std::string& key) {
   auto data = std::make_shared<Data>();
@@ -217,8 +253,12 @@ TomlTable TomlTable::restricted_to(const std::vector<std::string>& keys) const {
   return TomlTable(data);
 }
 
-void TomlTable::set(const std::string& path, double value) { set_at(data_->table, path, value); }
-void TomlTable::set(const std::string& path, int value) { set_at(data_->table, path, static_cast<std::int64_t>(value)); }
+void TomlTable::set(const std::string& path, double value) {
+  set_at(data_->table, path, value);
+}
+void TomlTable::set(const std::string& path, int value) {
+  set_at(data_->table, path, static_cast<std::int64_t>(value));
+}
 
 std::string TomlTable::print() const {
   std::ostringstream out;

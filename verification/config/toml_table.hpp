@@ -7,8 +7,8 @@
 
 namespace verification {
 
-/// A table of a TOML file that knows where it stands and which of its keys were asked for, so that a wrong value or
-/// a key that nobody reads is refused with file and key. Every reader throws ConfigError.
+/// A table of a TOML file that knows where it stands and which of its keys were asked for, so that a wrong
+/// value or a key that nobody reads is refused with file and key. Every reader throws ConfigError.
 class TomlTable {
  public:
   /// Parses a whole file.
@@ -48,7 +48,11 @@ class TomlTable {
   /// Throws ConfigError: "file: key 'path.key': problem".
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
 
-  /// This table with the values of `overrides` laid over it, tables merged key by key. `name` joins the messages.
+  /// Throws for a key that must be there; a key of nearly that name is taken for a misspelling.
+  [[noreturn]] void fail_missing(const std::string& key, const std::string& remedy) const;
+
+  /// This table with the values of `overrides` laid over it, tables merged key by key. `name` joins the
+  /// messages.
   [[nodiscard]] TomlTable overlaid_with(const TomlTable& overrides, const std::string& name) const;
 
   /// Copy that holds only the named top-level keys, as if the file had no others.

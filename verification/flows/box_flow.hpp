@@ -6,8 +6,8 @@
 
 namespace verification {
 
-/// A rectangle of fluid with any sides, body acceleration and uniform initial velocity, for which no exact solution
-/// is known: runs of it are recorded, not judged against a solution.
+/// A rectangle of fluid with any sides, body acceleration and uniform initial velocity, for which no exact
+/// solution is known: runs of it are recorded, not judged against a solution.
 struct BoxParameters {
   Vec2 size{0, 0};                        ///< [m]
   std::array<mpm::Side, 4> sides;         ///< indexed by mpm::Edge

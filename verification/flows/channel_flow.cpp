@@ -9,7 +9,9 @@
 namespace verification {
 namespace {
 
-Vec2 unit(int axis) { return axis == 0 ? Vec2(1, 0) : Vec2(0, 1); }
+Vec2 unit(int axis) {
+  return axis == 0 ? Vec2(1, 0) : Vec2(0, 1);
+}
 
 class ContinuousChannel final : public ExactField {
  public:
@@ -52,7 +54,8 @@ class DiscreteChannel final : public ExactField {
   int axis_;
   reference::DiscreteUsfChannelParameters parameters_;
   reference::DiscreteUsfChannel channel_;
-  mutable long step_ = -1;  // the step whose values are held: every sample of one output time asks for the same
+  mutable long step_ =
+      -1;  // the step whose values are held: every sample of one output time asks for the same
   mutable std::vector<double> nodes_, rows_;
 };
 
@@ -60,9 +63,9 @@ class DiscreteChannel final : public ExactField {
 
 ChannelFlow::ChannelFlow(const ChannelParameters& parameters)
     : parameters_(parameters),
-      solution_(std::make_shared<reference::NewtonianChannel>(reference::NewtonianChannelParameters{
-          parameters.height, parameters.kinematic_viscosity, parameters.body_acceleration,
-          parameters.plate_velocity})) {}
+      solution_(std::make_shared<reference::NewtonianChannel>(
+          reference::NewtonianChannelParameters{parameters.height, parameters.kinematic_viscosity,
+                                                parameters.body_acceleration, parameters.plate_velocity})) {}
 
 mpm::Scene ChannelFlow::scene(const Discretisation& d) const {
   const int along = parameters_.axis, across = 1 - along;
@@ -89,10 +92,9 @@ std::shared_ptr<const ExactField> ChannelFlow::exact() const {
 
 std::shared_ptr<const ExactField> ChannelFlow::exact_discrete(const Discretisation& d, double dt) const {
   return std::make_shared<DiscreteChannel>(
-      parameters_.axis,
-      reference::DiscreteUsfChannelParameters{parameters_.height, d.cells, d.particles_across,
-                                              parameters_.kinematic_viscosity, parameters_.body_acceleration,
-                                              parameters_.plate_velocity, dt});
+      parameters_.axis, reference::DiscreteUsfChannelParameters{
+                            parameters_.height, d.cells, d.particles_across, parameters_.kinematic_viscosity,
+                            parameters_.body_acceleration, parameters_.plate_velocity, dt});
 }
 
 Probe ChannelFlow::probe() const {

@@ -5,14 +5,14 @@
 
 namespace verification {
 
-/// A plane channel: fluid between a plate at rest at 0 and a plate at H that moves with V0 from t = 0, driven by a
-/// body acceleration F along the plates, from rest. Poiseuille is V0 = 0, Couette F = 0.
+/// A plane channel: fluid between a plate at rest at 0 and a plate at H that moves with V0 from t = 0, driven
+/// by a body acceleration F along the plates, from rest. Poiseuille is V0 = 0, Couette F = 0.
 struct ChannelParameters {
-  double height = 0;             ///< H [m]
-  double length = 0;             ///< L along the plates [m]; 0: square cells
-  int axis = 0;                  ///< direction of flow, 0 for x, 1 for y
-  double body_acceleration = 0;  ///< F [m/s2]
-  double plate_velocity = 0;     ///< V0 [m/s]
+  double height = 0;               ///< H [m]
+  double length = 0;               ///< L along the plates [m]; 0: square cells
+  int axis = 0;                    ///< direction of flow, 0 for x, 1 for y
+  double body_acceleration = 0;    ///< F [m/s2]
+  double plate_velocity = 0;       ///< V0 [m/s]
   double kinematic_viscosity = 0;  ///< nu [m2/s]
   mpm::Fluid fluid;
 };

@@ -4,7 +4,9 @@
 
 namespace verification {
 
-std::string name(Location location) { return location == Location::Grid ? "grid" : "particles"; }
+std::string name(Location location) {
+  return location == Location::Grid ? "grid" : "particles";
+}
 
 std::vector<Vec2> Flow::exact_line() const {
   constexpr int intervals = 200;  // smooth to the eye at any figure size
@@ -17,6 +19,8 @@ std::vector<Vec2> Flow::exact_line() const {
   return points;
 }
 
-double Flow::bias_unit(double) const { return std::numeric_limits<double>::quiet_NaN(); }
+double Flow::bias_unit(double) const {
+  return std::numeric_limits<double>::quiet_NaN();
+}
 
 }  // namespace verification

@@ -35,8 +35,8 @@ struct Probe {
   Vec2 direction;  ///< unit vector
 };
 
-/// A flow problem: what is solved, and what the answer is. Adding one: a class here, its reader in the table of
-/// flows/flow_reader.cpp.
+/// A flow problem: what is solved, and what the answer is. Adding one: a class here, its reader in the table
+/// of flows/flow_reader.cpp.
 class Flow {
  public:
   virtual ~Flow() = default;
@@ -50,9 +50,10 @@ class Flow {
   /// One line on the exact solution: what it is, and the error that it states for itself.
   [[nodiscard]] virtual std::string exact_description() const { return "no exact solution"; }
 
-  /// The exact solution of the Newtonian USF linear FLIP scheme itself, for steps of dt [s]; null where none is
-  /// known.
-  [[nodiscard]] virtual std::shared_ptr<const ExactField> exact_discrete(const Discretisation&, double dt) const {
+  /// The exact solution of the Newtonian USF linear FLIP scheme itself, for steps of dt [s]; null where none
+  /// is known.
+  [[nodiscard]] virtual std::shared_ptr<const ExactField> exact_discrete(const Discretisation&,
+                                                                         double dt) const {
     static_cast<void>(dt);
     return nullptr;
   }
@@ -61,7 +62,8 @@ class Flow {
   [[nodiscard]] virtual double velocity_scale() const = 0;
   [[nodiscard]] virtual Probe probe() const = 0;
 
-  /// Direction that the solution varies in: 0 for x, 1 for y. The velocity shown in profiles is probe().direction.
+  /// Direction that the solution varies in: 0 for x, 1 for y. The velocity shown in profiles is
+  /// probe().direction.
   [[nodiscard]] virtual int across() const = 0;
   /// Characteristic length [m]: cells are counted along it.
   [[nodiscard]] virtual double length() const = 0;

@@ -72,7 +72,8 @@ FlowPointer read_box(TomlTable& table, const FluidConfig& fluid) {
   BoxParameters p;
   p.size = {table.positive("width"), table.positive("height")};
   TomlTable walls = table.table("walls");
-  p.sides = {read_side(walls, "left"), read_side(walls, "right"), read_side(walls, "bottom"), read_side(walls, "top")};
+  p.sides = {read_side(walls, "left"), read_side(walls, "right"), read_side(walls, "bottom"),
+             read_side(walls, "top")};
   walls.refuse_unknown_keys();
   if (table.has("body_acceleration")) p.body_acceleration = read_vector(table, "body_acceleration");
   if (table.has("initial_velocity")) p.initial_velocity = read_vector(table, "initial_velocity");
@@ -87,7 +88,8 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
   static const std::vector<std::pair<std::string, Reader>> table = {
       {"poiseuille", [](TomlTable& t, const FluidConfig& f) { return read_channel(t, f, true, false); }},
       {"couette", [](TomlTable& t, const FluidConfig& f) { return read_channel(t, f, false, true); }},
-      {"couette-poiseuille", [](TomlTable& t, const FluidConfig& f) { return read_channel(t, f, true, true); }},
+      {"couette-poiseuille",
+       [](TomlTable& t, const FluidConfig& f) { return read_channel(t, f, true, true); }},
       {"acoustic-wave", read_acoustic_wave},
       {"shear-wave", read_shear_wave},
       {"box", read_box},

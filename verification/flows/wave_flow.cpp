@@ -5,13 +5,18 @@
 namespace verification {
 namespace {
 
-Vec2 unit(int axis) { return axis == 0 ? Vec2(1, 0) : Vec2(0, 1); }
+Vec2 unit(int axis) {
+  return axis == 0 ? Vec2(1, 0) : Vec2(0, 1);
+}
 
-double wavenumber(const WaveParameters& parameters) { return 2 * std::numbers::pi / parameters.wavelength; }
+double wavenumber(const WaveParameters& parameters) {
+  return 2 * std::numbers::pi / parameters.wavelength;
+}
 
 class AcousticField final : public ExactField {
  public:
-  AcousticField(int axis, std::shared_ptr<const reference::AcousticWave> wave) : axis_(axis), wave_(std::move(wave)) {}
+  AcousticField(int axis, std::shared_ptr<const reference::AcousticWave> wave)
+      : axis_(axis), wave_(std::move(wave)) {}
   [[nodiscard]] Vec2 velocity(const Vec2& x, double t, Location) const override {
     return wave_->velocity(x[axis_], t) * unit(axis_);
   }
@@ -73,11 +78,12 @@ Probe AcousticWaveFlow::probe() const {
 
 ShearWaveFlow::ShearWaveFlow(const WaveParameters& parameters)
     : parameters_(parameters),
-      solution_(std::make_shared<reference::ShearWave>(reference::ShearWaveParameters{
-          parameters.amplitude,
-          {wavenumber(parameters) * unit(parameters.axis).x(), wavenumber(parameters) * unit(parameters.axis).y()},
-          parameters.kinematic_viscosity,
-          {parameters.stream.x(), parameters.stream.y()}})) {}
+      solution_(std::make_shared<reference::ShearWave>(
+          reference::ShearWaveParameters{parameters.amplitude,
+                                         {wavenumber(parameters) * unit(parameters.axis).x(),
+                                          wavenumber(parameters) * unit(parameters.axis).y()},
+                                         parameters.kinematic_viscosity,
+                                         {parameters.stream.x(), parameters.stream.y()}})) {}
 
 mpm::Scene ShearWaveFlow::scene(const Discretisation& discretisation) const {
   mpm::Scene scene = periodic_box(parameters_, discretisation);
@@ -87,7 +93,9 @@ mpm::Scene ShearWaveFlow::scene(const Discretisation& discretisation) const {
   return scene;
 }
 
-std::shared_ptr<const ExactField> ShearWaveFlow::exact() const { return std::make_shared<ShearField>(solution_); }
+std::shared_ptr<const ExactField> ShearWaveFlow::exact() const {
+  return std::make_shared<ShearField>(solution_);
+}
 
 Probe ShearWaveFlow::probe() const {
   return {0.25 * parameters_.wavelength * unit(parameters_.axis), unit(1 - parameters_.axis)};

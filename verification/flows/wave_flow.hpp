@@ -6,7 +6,8 @@
 
 namespace verification {
 
-/// What both waves share: one wavelength in a box that is periodic in both directions, varying along one axis.
+/// What both waves share: one wavelength in a box that is periodic in both directions, varying along one
+/// axis.
 struct WaveParameters {
   double wavelength = 0;           ///< [m]
   double amplitude = 0;            ///< U [m/s]
@@ -19,13 +20,16 @@ struct WaveParameters {
 /// Square cells, one wavelength across, `cells_along` the other way.
 mpm::Scene periodic_box(const WaveParameters& parameters, const Discretisation& discretisation);
 
-/// Damped standing sound wave u = U sin(k x) from uniform density: equation of state, density update, -2/3 mu tr(D).
+/// Damped standing sound wave u = U sin(k x) from uniform density: equation of state, density update, -2/3 mu
+/// tr(D).
 class AcousticWaveFlow final : public Flow {
  public:
   explicit AcousticWaveFlow(const WaveParameters& parameters);
   [[nodiscard]] mpm::Scene scene(const Discretisation& discretisation) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> exact() const override;
-  [[nodiscard]] std::string exact_description() const override { return "damped standing sound wave, linear theory"; }
+  [[nodiscard]] std::string exact_description() const override {
+    return "damped standing sound wave, linear theory";
+  }
   [[nodiscard]] double velocity_scale() const override { return parameters_.amplitude; }
   [[nodiscard]] Probe probe() const override;
   [[nodiscard]] int across() const override { return parameters_.axis; }
@@ -36,13 +40,16 @@ class AcousticWaveFlow final : public Flow {
   std::shared_ptr<const reference::AcousticWave> solution_;
 };
 
-/// Decaying transverse shear wave, carried along by a uniform stream: frame invariance and exact conservation.
+/// Decaying transverse shear wave, carried along by a uniform stream: frame invariance and exact
+/// conservation.
 class ShearWaveFlow final : public Flow {
  public:
   explicit ShearWaveFlow(const WaveParameters& parameters);
   [[nodiscard]] mpm::Scene scene(const Discretisation& discretisation) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> exact() const override;
-  [[nodiscard]] std::string exact_description() const override { return "decaying shear wave, exact Navier-Stokes"; }
+  [[nodiscard]] std::string exact_description() const override {
+    return "decaying shear wave, exact Navier-Stokes";
+  }
   [[nodiscard]] double velocity_scale() const override { return parameters_.amplitude; }
   [[nodiscard]] Probe probe() const override;
   [[nodiscard]] int across() const override { return parameters_.axis; }

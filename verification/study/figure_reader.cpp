@@ -37,7 +37,8 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
     runs.push_back(last->run);
   }
   if (figure.kind == "profiles" || figure.kind == "history") {
-    if (figure.kind == "profiles" && runs.size() > 1) table.fail("variants", "a profile figure shows one variant");
+    if (figure.kind == "profiles" && runs.size() > 1)
+      table.fail("variants", "a profile figure shows one variant");
     figure.runs = joined(runs);
     figure.labels = table.has("labels") ? joined(table.texts("labels")) : joined(variants);
     figure.across = last->scene.flow->across() == 0 ? "x" : "y";

@@ -34,18 +34,19 @@ Norms difference_norms(const RunData& a, const RunData& b, double t, Location lo
 }
 
 /// GCI of the three finest levels and Eca-Hoekstra uncertainty of the probe velocity, relative to the scale.
-void add_uncertainty(reports::OrderRecord& order, const std::vector<const RunData*>& ladder, std::size_t output,
-                     double formal_order) {
+void add_uncertainty(reports::OrderRecord& order, const std::vector<const RunData*>& ladder,
+                     std::size_t output, double formal_order) {
   order.gci = order.gci_safety_factor = order.uncertainty = nan;
   std::vector<double> steps, values;
   for (const RunData* run : ladder) {
     steps.push_back(run->plan->step);
-    values.push_back(output < run->probe.size() ? run->probe[output] / run->plan->scene.flow->velocity_scale() : nan);
+    values.push_back(output < run->probe.size() ? run->probe[output] / run->plan->scene.flow->velocity_scale()
+                                                : nan);
   }
   order.quantity = "velocity at the probe, grid";
   if (steps.size() >= 3) {
-    const GciResult gci = grid_convergence_index({steps.end() - 3, steps.end()}, {values.end() - 3, values.end()},
-                                                 formal_order);
+    const GciResult gci = grid_convergence_index({steps.end() - 3, steps.end()},
+                                                 {values.end() - 3, values.end()}, formal_order);
     order.gci = gci.uncertainty;
     order.gci_safety_factor = gci.safety_factor;
   }
@@ -62,18 +63,20 @@ void measure_ladder(StudyData& data, const std::string& variant, Location locati
     steps.push_back(runs[k]->plan->step);
     if (ladder.axis == Axis::Space) {
       for (const reports::ErrorRecord& error : runs[k]->errors)
-        if (error.t == t && error.location == name(location)) values.push_back(verification::pick(error, norm));
+        if (error.t == t && error.location == name(location))
+          values.push_back(verification::pick(error, norm));
     } else if (k + 1 < runs.size()) {
       values.push_back(pick(difference_norms(*runs[k], *runs[k + 1], t, location), norm));
     }
   }
   OrderOptions options;
   options.floor = ladder.floor;
-  const OrderEstimate estimate = ladder.axis == Axis::Space ? estimate_order(steps, values, options)
-                                                            : estimate_order_from_differences(steps, values, options);
+  const OrderEstimate estimate = ladder.axis == Axis::Space
+                                     ? estimate_order(steps, values, options)
+                                     : estimate_order_from_differences(steps, values, options);
   for (std::size_t k = 0; k < values.size(); ++k)
-    data.levels.push_back({data.study->name, variant, name(ladder.axis), name(location), norm, t, steps[k], values[k],
-                           bool(estimate.used[k])});
+    data.levels.push_back({data.study->name, variant, name(ladder.axis), name(location), norm, t, steps[k],
+                           values[k], bool(estimate.used[k])});
   reports::OrderRecord order;
   order.study = data.study->name;
   order.variant = variant;

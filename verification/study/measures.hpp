@@ -4,13 +4,13 @@
 
 namespace verification {
 
-/// Relative error norms of a run at every output time on grid and particles, from its profile rows. An output that
-/// was not reached, and a run without an exact solution, give NaN.
+/// Relative error norms of a run at every output time on grid and particles, from its profile rows. An output
+/// that was not reached, and a run without an exact solution, give NaN.
 std::vector<reports::ErrorRecord> measure_errors(const RunData& run);
 
 /// Fills levels and orders of a study with a ladder: against the exact solution in space, from successive
-/// differences on one mesh in time. Orders in space carry the GCI and the Eca-Hoekstra uncertainty of the probe
-/// velocity.
+/// differences on one mesh in time. Orders in space carry the GCI and the Eca-Hoekstra uncertainty of the
+/// probe velocity.
 void measure_orders(StudyData& data);
 
 /// The value of one norm.

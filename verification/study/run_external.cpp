@@ -19,7 +19,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::string quoted(const std::filesystem::path& path) {
   std::string text = "'";
-  for (const char c : std::filesystem::absolute(path).string()) text += c == '\'' ? "'\\''" : std::string(1, c);
+  for (const char c : std::filesystem::absolute(path).string())
+    text += c == '\'' ? "'\\''" : std::string(1, c);
   return text + "'";
 }
 
@@ -38,9 +39,10 @@ double output_time(const SceneConfig& scene, double t) {
 
 std::vector<reports::ProfileRow> read_foreign_profile(const std::filesystem::path& file) {
   using Row = reports::ProfileRow;
-  const auto columns = std::make_tuple(reports::column("t", &Row::t), reports::column("location", &Row::location),
-                                       reports::column("x", &Row::x), reports::column("y", &Row::y),
-                                       reports::column("u", &Row::u), reports::column("v", &Row::v));
+  const auto columns =
+      std::make_tuple(reports::column("t", &Row::t), reports::column("location", &Row::location),
+                      reports::column("x", &Row::x), reports::column("y", &Row::y),
+                      reports::column("u", &Row::u), reports::column("v", &Row::v));
   try {
     return reports::read_csv(file, columns);
   } catch (const reports::IoError& error) {
@@ -54,7 +56,8 @@ RunData run_external(const Study& study, const PlannedRun& plan, const std::file
   const SceneConfig& scene = plan.scene;
   const std::filesystem::path folder = out / "external" / plan.run;
   reports::ensure_directory(folder);
-  std::string command = replaced(study.solver_command, "{scene}", quoted(out / "scenes" / (plan.run + ".toml")));
+  std::string command =
+      replaced(study.solver_command, "{scene}", quoted(out / "scenes" / (plan.run + ".toml")));
   command = replaced(command, "{out}", quoted(folder)) + " > " + quoted(folder / "log.txt") + " 2>&1";
 
   const auto begin = std::chrono::steady_clock::now();
@@ -81,10 +84,12 @@ RunData run_external(const Study& study, const PlannedRun& plan, const std::file
     const auto rows = exact_lines(scene, *line);
     data.profile.insert(data.profile.end(), rows.begin(), rows.end());
   }
-  data.record = {plan.run,   study.name, scene.flow_name,
-                 scene.fluid.label, "external", "external",
-                 "external", scene.discretisation.cells, scene.particles(),
-                 scene.segments.front().dt, scene.steps(), "completed"};
+  data.record = {plan.run,          study.name,
+                 scene.flow_name,   scene.fluid.label,
+                 "external",        "external",
+                 "external",        scene.discretisation.cells,
+                 scene.particles(), scene.segments.front().dt,
+                 scene.steps(),     "completed"};
   data.timing = {plan.run, wall, nan};
   return data;
 }

@@ -54,8 +54,9 @@ class Recorder {
     const Probe probe = scene_.flow->probe();
     const mpm::Totals totals = simulation_.totals();
     const double exact = exact_ ? exact_->velocity(probe.point, t, Location::Grid).dot(probe.direction) : nan;
-    data_.history.push_back({t, probe_velocity(t), exact, totals.mass, totals.momentum.x(), totals.momentum.y(),
-                             totals.impulse.x(), totals.impulse.y(), totals.kinetic_energy});
+    data_.history.push_back({t, probe_velocity(t), exact, totals.mass, totals.momentum.x(),
+                             totals.momentum.y(), totals.impulse.x(), totals.impulse.y(),
+                             totals.kinetic_energy});
     ++samples_;
   }
 
@@ -84,13 +85,15 @@ RunData run_simulation(const Study& study, const PlannedRun& plan) {
   const double dt = mpm::nominal_time_step(scene.time_step, scene.scene);
   RunData data;
   data.plan = &plan;
-  const auto exact = study.comparison == Comparison::Discrete ? scene.flow->exact_discrete(scene.discretisation, dt)
-                                                              : scene.flow->exact();
+  const auto exact = study.comparison == Comparison::Discrete
+                         ? scene.flow->exact_discrete(scene.discretisation, dt)
+                         : scene.flow->exact();
   const auto begin = std::chrono::steady_clock::now();
   const auto simulation = mpm::make_simulation(scene.scene, scene.scheme);
   Recorder recorder(plan, *simulation, exact.get(), data);
   const mpm::Outcome outcome = mpm::run(
-      *simulation, scene.segments, [&](double t) { recorder.after_step(t); }, [&](double t) { recorder.at_output(t); });
+      *simulation, scene.segments, [&](double t) { recorder.after_step(t); },
+      [&](double t) { recorder.at_output(t); });
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   const auto particles = static_cast<long>(simulation->particles().size());
@@ -105,8 +108,9 @@ RunData run_simulation(const Study& study, const PlannedRun& plan) {
                  particles,
                  scene.segments.front().dt,
                  outcome.steps,
-                 outcome.breakdown ? fmt::format("diverged at t = {:.6g} s: {}", outcome.time, *outcome.breakdown)
-                                   : "completed"};
+                 outcome.breakdown
+                     ? fmt::format("diverged at t = {:.6g} s: {}", outcome.time, *outcome.breakdown)
+                     : "completed"};
   data.timing = {plan.run, wall, static_cast<double>(particles) * static_cast<double>(outcome.steps) / wall};
   if (const auto line = scene.flow->exact(); line && study.comparison == Comparison::Exact) {
     const auto rows = exact_lines(scene, *line);

@@ -4,8 +4,8 @@
 
 namespace verification {
 
-/// Runs one planned simulation with our solver and takes its profiles, history and timing. A run that breaks down is
-/// recorded ("diverged at t = ..."); its profiles end with the last output reached.
+/// Runs one planned simulation with our solver and takes its profiles, history and timing. A run that breaks
+/// down is recorded ("diverged at t = ..."); its profiles end with the last output reached.
 RunData run_simulation(const Study& study, const PlannedRun& plan);
 
 /// Fine exact lines at the output times, for figures and for `reference`.

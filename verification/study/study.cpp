@@ -6,9 +6,12 @@ namespace verification {
 
 std::string name(Suite suite) {
   switch (suite) {
-    case Suite::Quick: return "quick";
-    case Suite::Full: return "full";
-    default: return "deep";
+    case Suite::Quick:
+      return "quick";
+    case Suite::Full:
+      return "full";
+    default:
+      return "deep";
   }
 }
 
@@ -20,9 +23,12 @@ Suite suite_named(const std::string& text) {
 
 std::string name(Axis axis) {
   switch (axis) {
-    case Axis::Space: return "space";
-    case Axis::Time: return "time";
-    default: return "none";
+    case Axis::Space:
+      return "space";
+    case Axis::Time:
+      return "time";
+    default:
+      return "none";
   }
 }
 

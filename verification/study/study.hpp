@@ -33,23 +33,23 @@ std::string name(Axis axis);
 /// How the levels of a study differ.
 struct Ladder {
   Axis axis = Axis::None;
-  std::vector<int> cells;      ///< Space: across, coarse to fine
-  double dt_exponent = 2;      ///< Space: dt = time.dt (cells[0]/cells)^dt_exponent
-  std::vector<double> dt;      ///< Time: coarse to fine [s]
+  std::vector<int> cells;  ///< Space: across, coarse to fine
+  double dt_exponent = 2;  ///< Space: dt = time.dt (cells[0]/cells)^dt_exponent
+  std::vector<double> dt;  ///< Time: coarse to fine [s]
   double theoretical = std::numeric_limits<double>::quiet_NaN();  ///< order that theory gives
-  double floor = 0;            ///< relative error below which levels are round-off: dropped within 10x of it
+  double floor = 0;  ///< relative error below which levels are round-off: dropped within 10x of it
 };
 
 /// One statement that must hold; which keys matter depends on the kind (checks/).
 struct CheckSpec {
   std::string kind;
-  std::vector<std::string> variants;   ///< that it speaks of
+  std::vector<std::string> variants;  ///< that it speaks of
   std::vector<Location> locations;
-  std::string norm;                    ///< "l1", "l2", "linf"
-  std::vector<double> times;           ///< [s]
-  std::string level;                   ///< "finest", "coarsest", "all"
-  std::string against;                 ///< variant to compare with
-  std::string quantity;                ///< conserved quantity
+  std::string norm;           ///< "l1", "l2", "linf"
+  std::vector<double> times;  ///< [s]
+  std::string level;          ///< "finest", "coarsest", "all"
+  std::string against;        ///< variant to compare with
+  std::string quantity;       ///< conserved quantity
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   std::string reason;

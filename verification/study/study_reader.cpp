@@ -12,7 +12,8 @@ namespace verification {
 namespace {
 
 template <class Value>
-void require_ladder(const TomlTable& table, const std::string& key, const std::vector<Value>& values, bool rising) {
+void require_ladder(const TomlTable& table, const std::string& key, const std::vector<Value>& values,
+                    bool rising) {
   if (values.size() < 2) table.fail(key, "needs at least two levels");
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!(values[i] > 0)) table.fail(key, "must be positive");
@@ -44,7 +45,8 @@ Ladder read_ladder(TomlTable table, bool present) {
   return ladder;
 }
 
-/// Lays the values of one level over the scene. A space ladder scales a fixed dt; one from limits follows by itself.
+/// Lays the values of one level over the scene. A space ladder scales a fixed dt; one from limits follows by
+/// itself.
 TomlTable at_level(const TomlTable& scene, const Ladder& ladder, int level, std::string& tag) {
   TomlTable result = scene.overlaid_with(TomlTable::from_text("", ""), "");
   const auto i = static_cast<std::size_t>(level);
@@ -65,8 +67,9 @@ TomlTable at_level(const TomlTable& scene, const Ladder& ladder, int level, std:
 
 void plan_runs(Study& study, const TomlTable& scene, const std::string& variant) {
   const Ladder& ladder = study.ladder;
-  const std::size_t levels =
-      ladder.axis == Axis::Space ? ladder.cells.size() : ladder.axis == Axis::Time ? ladder.dt.size() : 1;
+  const std::size_t levels = ladder.axis == Axis::Space  ? ladder.cells.size()
+                             : ladder.axis == Axis::Time ? ladder.dt.size()
+                                                         : 1;
   for (std::size_t level = 0; level < levels; ++level) {
     PlannedRun planned;
     std::string tag;
@@ -104,12 +107,14 @@ void require_comparable(const TomlTable& root, const Study& study) {
   for (const PlannedRun& planned : study.runs) {
     const SceneConfig& scene = planned.scene;
     const bool usf_like = scene.scheme.stepping != mpm::Scheme::Stepping::Usl;
-    if (!usf_like || scene.time_step.dt == 0 || !scene.flow->exact_discrete(scene.discretisation, scene.time_step.dt))
+    if (!usf_like || scene.time_step.dt == 0 ||
+        !scene.flow->exact_discrete(scene.discretisation, scene.time_step.dt))
       root.fail("compare_with", "\"discrete\" is known for usf and musl channels with a fixed dt only (run " +
                                     planned.run + ")");
     for (const double t : scene.outputs)
       if (std::abs(t / scene.time_step.dt - std::round(t / scene.time_step.dt)) > 1e-6)
-        root.fail("compare_with", "\"discrete\" needs output times that are multiples of dt (run " + planned.run + ")");
+        root.fail("compare_with",
+                  "\"discrete\" needs output times that are multiples of dt (run " + planned.run + ")");
   }
 }
 
@@ -142,7 +147,8 @@ Study read_study(const std::filesystem::path& file) {
   read_variants(study, root, root.restricted_to(scene_tables()));
   require_comparable(root, study);
   for (TomlTable& table : root.tables("check")) study.checks.push_back(read_check(table, study));
-  if (study.checks.empty()) root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");
+  if (study.checks.empty())
+    root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");
   for (TomlTable& table : root.tables("figure")) study.figures.push_back(read_figure(table, study));
   root.refuse_unknown_keys();
   return study;
@@ -154,7 +160,8 @@ std::vector<Study> read_studies(const std::filesystem::path& directory) {
   for (const auto& entry : std::filesystem::directory_iterator(directory, error))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   if (files.empty())
-    throw ConfigError(directory.string() + ": no studies (*.toml) here; give their directory with --studies DIR");
+    throw ConfigError(directory.string() +
+                      ": no studies (*.toml) here; give their directory with --studies DIR");
   std::ranges::sort(files);
   std::vector<Study> studies;
   for (const auto& file : files) studies.push_back(read_study(file));
