@@ -36,6 +36,9 @@ class Simulation {
   /// velocity imposed, interpolated with the basis [m/s]. Leaves the state as it is.
   [[nodiscard]] virtual VectorField grid_field(const VectorField& points, double t) const = 0;
 
+  /// Gradient of the grid field, L_ab = d v_a/d x_b [1/s], as grid_field().
+  [[nodiscard]] virtual std::vector<Mat2> grid_gradient(const VectorField& points, double t) const = 0;
+
   [[nodiscard]] virtual Totals totals() const = 0;
 };
 

@@ -44,13 +44,19 @@ class Solver final : public Simulation {
   [[nodiscard]] const Particles& particles() const override { return particles_; }
 
   [[nodiscard]] VectorField grid_field(const VectorField& points, double t) const override {
-    Grid grid = grid_;
-    map_velocity(grid, grid.velocity);
-    walls_.impose_velocity(grid.velocity, t);
+    const Grid grid = mapped_grid(t);
     VectorField velocities;
     velocities.reserve(points.size());
     for (const Vec2& point : points) velocities.push_back(interpolate<Basis>(grid, grid.velocity, point));
     return velocities;
+  }
+
+  [[nodiscard]] std::vector<Mat2> grid_gradient(const VectorField& points, double t) const override {
+    const Grid grid = mapped_grid(t);
+    std::vector<Mat2> gradients;
+    gradients.reserve(points.size());
+    for (const Vec2& point : points) gradients.push_back(gradient<Basis>(grid, grid.velocity, point));
+    return gradients;
   }
 
   [[nodiscard]] Totals totals() const override {
@@ -64,6 +70,14 @@ class Solver final : public Simulation {
   }
 
  private:
+  /// The grid with the particles' velocity mapped to it and the walls' imposed.
+  [[nodiscard]] Grid mapped_grid(double t) const {
+    Grid grid = grid_;
+    map_velocity(grid, grid.velocity);
+    walls_.impose_velocity(grid.velocity, t);
+    return grid;
+  }
+
   /// Update stress first: strain rate from the velocity at the start of the step.
   void step_usf(double t, double dt) {
     map_velocity(grid_, grid_.velocity);

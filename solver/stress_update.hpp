@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "solver/basis.hpp"
@@ -18,15 +21,8 @@ class StressUpdate {
                           double dt) const = 0;
 };
 
-/// sigma = 2 mu D - (2/3) mu tr(D) I - P I (paper Eq. 21).
-template <class Rheology>
-Mat2 viscous_stress(const Rheology& rheology, const Mat2& strain_rate) {
-  const double mu = [&] {
-    if constexpr (Rheology::needs_shear_rate)
-      return rheology.viscosity(2 * strain_rate.squaredNorm());
-    else
-      return rheology.viscosity();
-  }();
+/// sigma = 2 mu D - (2/3) mu tr(D) I (paper Eq. 21, without the pressure).
+inline Mat2 viscous_stress(double mu, const Mat2& strain_rate) {
   return 2 * mu * strain_rate - (2.0 / 3.0) * mu * strain_rate.trace() * Mat2::Identity();
 }
 
@@ -36,18 +32,43 @@ class FluidStress final : public StressUpdate {
   FluidStress(const Rheology& rheology, const Pressure& pressure)
       : rheology_(rheology), pressure_(pressure) {}
 
+  /// Block by block, so that the viscosities of a block come from one call on an array: in vector registers.
   void operator()(Particles& particles, const Grid& grid, const VectorField& nodal_velocity,
                   double dt) const override {
-    for (std::size_t p = 0; p < particles.size(); ++p) {
-      const Mat2 l = gradient<Basis>(grid, nodal_velocity, particles.position[p]);
-      const Mat2 d = 0.5 * (l + l.transpose());
-      particles.density[p] = pressure_.advance_density(particles.density[p], d.trace(), dt);
-      particles.stress[p] =
-          viscous_stress(rheology_, d) - pressure_.pressure(particles.density[p]) * Mat2::Identity();
+    std::array<Mat2, block> strain_rate;
+    Array mu = Array::Zero();
+    for (std::size_t begin = 0; begin < particles.size(); begin += block) {
+      const std::size_t count = std::min(block, particles.size() - begin);
+      for (std::size_t k = 0; k < count; ++k) {
+        const Mat2 l = gradient<Basis>(grid, nodal_velocity, particles.position[begin + k]);
+        strain_rate[k] = 0.5 * (l + l.transpose());
+      }
+      viscosities(strain_rate, count, mu);
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t p = begin + k;
+        const Mat2& d = strain_rate[k];
+        particles.density[p] = pressure_.advance_density(particles.density[p], d.trace(), dt);
+        particles.stress[p] = viscous_stress(mu[static_cast<Eigen::Index>(k)], d) -
+                              pressure_.pressure(particles.density[p]) * Mat2::Identity();
+      }
     }
   }
 
  private:
+  static constexpr std::size_t block = 32;
+  using Array = Eigen::Array<double, static_cast<int>(block), 1>;
+
+  void viscosities(const std::array<Mat2, block>& strain_rate, std::size_t count, Array& mu) const {
+    if constexpr (Rheology::needs_shear_rate) {
+      Array gdot_squared = Array::Ones();  // lanes beyond `count` hold a harmless value
+      for (std::size_t k = 0; k < count; ++k)
+        gdot_squared[static_cast<Eigen::Index>(k)] = 2 * strain_rate[k].squaredNorm();
+      mu = rheology_.viscosity(gdot_squared);
+    } else {
+      mu.setConstant(rheology_.viscosity());
+    }
+  }
+
   Rheology rheology_;
   Pressure pressure_;
 };

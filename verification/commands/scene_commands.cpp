@@ -80,7 +80,7 @@ int solve_command(const SceneOptions& options) {
   fmt::print("{}: {}; {} particles, {} steps, {:.3g} s, {:.3g} particle-steps/s\n", data.record.run,
              data.record.status, data.record.particles, data.record.steps, data.timing.wall_s,
              data.timing.particle_steps_per_s);
-  if (study.runs.front().scene.flow->exact()) {
+  if (study.runs.front().scene.flow->has_exact()) {
     fmt::print("errors relative to {:.6g} m/s\n{:>12} {:<10} {:>12} {:>12} {:>12}\n",
                study.runs.front().scene.flow->velocity_scale(), "t [s]", "location", "L1", "L2", "Linf");
     for (const reports::ErrorRecord& e : data.errors)
@@ -92,14 +92,14 @@ int solve_command(const SceneOptions& options) {
 int reference_command(const SceneOptions& options) {
   const Study study = study_of_scene(options);
   const SceneConfig& scene = study.runs.front().scene;
-  const auto exact = scene.flow->exact();
+  const auto exact = scene.flow->exact(scene.outputs);
   if (!exact)
     throw ConfigError(options.scene.string() + ": key 'scene.flow': no exact solution is known for '" +
                       scene.flow_name + "'");
   reports::ensure_directory(options.out / "profiles");
   reports::write_provenance(options.out, provenance_of(options.command_line));
   reports::write_profile(options.out, study.name, exact_lines(scene, *exact));
-  fmt::print("{}: {}\n", study.name, scene.flow->exact_description());
+  fmt::print("{}: {}\n", study.name, exact->description());
   fmt::print("profiles at {} times: {}\n", scene.outputs.size(),
              (options.out / "profiles" / (study.name + ".csv")).string());
   return 0;

@@ -32,6 +32,10 @@ class BoxFlow final : public Flow {
     scene.fluid = parameters_.fluid;
     return scene;
   }
+  [[nodiscard]] bool has_exact() const override { return false; }
+  [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>&) const override {
+    return nullptr;
+  }
   [[nodiscard]] double velocity_scale() const override { return parameters_.velocity_scale; }
   [[nodiscard]] Probe probe() const override { return {0.5 * parameters_.size, Vec2(1, 0)}; }
   [[nodiscard]] int across() const override { return 1; }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reference/discrete_usf_channel.hpp"
-#include "reference/newtonian_channel.hpp"
+#include "reference/steady_channel.hpp"
+#include "verification/flows/reference_store.hpp"
 
 namespace verification {
 namespace {
@@ -20,6 +22,10 @@ class ContinuousChannel final : public ExactField {
   [[nodiscard]] Vec2 velocity(const Vec2& x, double t, Location) const override {
     return solution_->velocity(x[1 - axis_], t) * unit(axis_);
   }
+  [[nodiscard]] std::optional<double> shear_rate(const Vec2& x, double t) const override {
+    return std::abs(solution_->gradient(x[1 - axis_], t));
+  }
+  [[nodiscard]] std::string description() const override { return solution_->description(); }
 
  private:
   int axis_;
@@ -50,6 +56,10 @@ class DiscreteChannel final : public ExactField {
     return ((1 - xi) * nodes_[j] + xi * nodes_[j + 1]) * unit(axis_);
   }
 
+  [[nodiscard]] std::string description() const override {
+    return "exact discrete solution of the Newtonian USF linear FLIP scheme";
+  }
+
  private:
   int axis_;
   reference::DiscreteUsfChannelParameters parameters_;
@@ -61,11 +71,12 @@ class DiscreteChannel final : public ExactField {
 
 }  // namespace
 
-ChannelFlow::ChannelFlow(const ChannelParameters& parameters)
-    : parameters_(parameters),
-      solution_(std::make_shared<reference::NewtonianChannel>(
-          reference::NewtonianChannelParameters{parameters.height, parameters.kinematic_viscosity,
-                                                parameters.body_acceleration, parameters.plate_velocity})) {}
+ChannelFlow::ChannelFlow(const ChannelParameters& parameters) : parameters_(parameters) {
+  const reference::SteadyChannel steady(parameters.height, parameters.body_acceleration,
+                                        parameters.plate_velocity, parameters.fluid.curve);
+  steady_maximum_ = steady.maximum();
+  steady_mid_height_ = steady.mid_height_velocity();
+}
 
 mpm::Scene ChannelFlow::scene(const Discretisation& d) const {
   const int along = parameters_.axis, across = 1 - along;
@@ -82,19 +93,23 @@ mpm::Scene ChannelFlow::scene(const Discretisation& d) const {
       mpm::Side::wall(parameters_.plate_velocity * unit(along));
   const Vec2 b = parameters_.body_acceleration * unit(along);
   scene.body_acceleration = [b](double) { return b; };
-  scene.fluid = parameters_.fluid;
+  scene.fluid = parameters_.fluid.solver;
   return scene;
 }
 
-std::shared_ptr<const ExactField> ChannelFlow::exact() const {
-  return std::make_shared<ContinuousChannel>(parameters_.axis, solution_);
+std::shared_ptr<const ExactField> ChannelFlow::exact(const std::vector<double>& times) const {
+  return std::make_shared<ContinuousChannel>(
+      parameters_.axis, channel_solution({parameters_.height, parameters_.body_acceleration,
+                                          parameters_.plate_velocity, parameters_.fluid.curve, times}));
 }
 
 std::shared_ptr<const ExactField> ChannelFlow::exact_discrete(const Discretisation& d, double dt) const {
+  const auto nu = parameters_.fluid.curve.newtonian();
+  if (!nu) return nullptr;
   return std::make_shared<DiscreteChannel>(
-      parameters_.axis, reference::DiscreteUsfChannelParameters{
-                            parameters_.height, d.cells, d.particles_across, parameters_.kinematic_viscosity,
-                            parameters_.body_acceleration, parameters_.plate_velocity, dt});
+      parameters_.axis,
+      reference::DiscreteUsfChannelParameters{parameters_.height, d.cells, d.particles_across, *nu,
+                                              parameters_.body_acceleration, parameters_.plate_velocity, dt});
 }
 
 Probe ChannelFlow::probe() const {
@@ -102,7 +117,8 @@ Probe ChannelFlow::probe() const {
 }
 
 double ChannelFlow::bias_unit(double h) const {
-  return h * h * parameters_.body_acceleration / parameters_.kinematic_viscosity;
+  const auto nu = parameters_.fluid.curve.newtonian();
+  return nu ? h * h * parameters_.body_acceleration / *nu : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace verification

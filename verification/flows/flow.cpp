@@ -19,6 +19,10 @@ std::vector<Vec2> Flow::exact_line() const {
   return points;
 }
 
+double Flow::steady_probe() const {
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 double Flow::bias_unit(double) const {
   return std::numeric_limits<double>::quiet_NaN();
 }

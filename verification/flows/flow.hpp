@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,10 @@ class ExactField {
   virtual ~ExactField() = default;
   /// Velocity [m/s] at a point [m] and time [s].
   [[nodiscard]] virtual Vec2 velocity(const Vec2& x, double t, Location location) const = 0;
+  /// Shear rate |du/dy| of a channel [1/s]; none for other flows.
+  [[nodiscard]] virtual std::optional<double> shear_rate(const Vec2&, double) const { return std::nullopt; }
+  /// One line: what it is, and the error that it states for itself.
+  [[nodiscard]] virtual std::string description() const = 0;
 };
 
 /// A point that histories follow, and the velocity component recorded there.
@@ -44,11 +49,11 @@ class Flow {
   /// The solver's scene at a resolution, fluid included.
   [[nodiscard]] virtual mpm::Scene scene(const Discretisation& discretisation) const = 0;
 
-  /// The exact solution of the differential equations; null where none is known.
-  [[nodiscard]] virtual std::shared_ptr<const ExactField> exact() const { return nullptr; }
-
-  /// One line on the exact solution: what it is, and the error that it states for itself.
-  [[nodiscard]] virtual std::string exact_description() const { return "no exact solution"; }
+  /// Whether exact() gives one.
+  [[nodiscard]] virtual bool has_exact() const { return true; }
+  /// The exact or reference solution of the differential equations, good at the given times [s] and between;
+  /// null where none is known. May take seconds to compute, once a process.
+  [[nodiscard]] virtual std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const = 0;
 
   /// The exact solution of the Newtonian USF linear FLIP scheme itself, for steps of dt [s]; null where none
   /// is known.
@@ -60,6 +65,8 @@ class Flow {
 
   /// Velocity that errors are divided by [m/s].
   [[nodiscard]] virtual double velocity_scale() const = 0;
+  /// Velocity at the probe in the steady state [m/s]; NaN where there is none.
+  [[nodiscard]] virtual double steady_probe() const;
   [[nodiscard]] virtual Probe probe() const = 0;
 
   /// Direction that the solution varies in: 0 for x, 1 for y. The velocity shown in profiles is

@@ -37,17 +37,22 @@ FlowPointer read_channel(TomlTable& table, const FluidConfig& fluid, bool driven
   p.axis = read_axis(table, "x");
   if (driven) p.body_acceleration = read_nonzero(table, "body_acceleration");
   if (plate) p.plate_velocity = read_nonzero(table, "plate_velocity");
-  p.kinematic_viscosity = fluid.kinematic_viscosity;
-  p.fluid = fluid.solver;
-  return std::make_shared<ChannelFlow>(p);
+  p.fluid = fluid;
+  try {
+    return std::make_shared<ChannelFlow>(p);
+  } catch (const std::invalid_argument& error) {
+    table.fail("flow", error.what());
+  }
 }
 
 WaveParameters read_wave(TomlTable& table, const FluidConfig& fluid, const std::string& axis) {
+  const auto nu = fluid.curve.newtonian();
+  if (!nu) table.fail("flow", "has an exact solution for a Newtonian fluid only");
   WaveParameters p;
   p.wavelength = table.positive("wavelength");
   p.amplitude = table.positive("amplitude");
   p.axis = read_axis(table, axis);
-  p.kinematic_viscosity = fluid.kinematic_viscosity;
+  p.kinematic_viscosity = *nu;
   p.fluid = fluid.solver;
   return p;
 }

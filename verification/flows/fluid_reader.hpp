@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "reference/flow_curve.hpp"
 #include "solver/scene.hpp"
 #include "verification/config/toml_table.hpp"
 
@@ -9,12 +10,14 @@ namespace verification {
 
 /// A fluid as the user states it.
 struct FluidConfig {
-  std::string label;               ///< for tables: "newtonian"
-  double kinematic_viscosity = 0;  ///< nu [m2/s]
-  mpm::Fluid solver;               ///< the same for the solver
+  std::string label;               ///< for tables: "newtonian", "cross a=0.25", "power-law n=0.6"
+  double kinematic_viscosity = 0;  ///< nu_0 [m2/s]: of the Newtonian limit, or at 1/s for a power law
+  reference::FlowCurve curve{reference::NewtonianCurve{1}};  ///< for the reference
+  mpm::Fluid solver;                                         ///< the same for the solver
 };
 
-/// Reads [fluid]: model, kinematic_viscosity, density, pressure, bulk_modulus. Throws ConfigError.
+/// Reads [fluid]: model, kinematic_viscosity, density, pressure, bulk_modulus and the keys of the model.
+/// Throws ConfigError.
 FluidConfig read_fluid(TomlTable table);
 
 }  // namespace verification

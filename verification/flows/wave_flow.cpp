@@ -20,6 +20,9 @@ class AcousticField final : public ExactField {
   [[nodiscard]] Vec2 velocity(const Vec2& x, double t, Location) const override {
     return wave_->velocity(x[axis_], t) * unit(axis_);
   }
+  [[nodiscard]] std::string description() const override {
+    return "damped standing sound wave, linear theory";
+  }
 
  private:
   int axis_;
@@ -32,6 +35,9 @@ class ShearField final : public ExactField {
   [[nodiscard]] Vec2 velocity(const Vec2& x, double t, Location) const override {
     const auto v = wave_->velocity(x.x(), x.y(), t);
     return {v[0], v[1]};
+  }
+  [[nodiscard]] std::string description() const override {
+    return "decaying shear wave, exact Navier-Stokes";
   }
 
  private:
@@ -68,7 +74,7 @@ mpm::Scene AcousticWaveFlow::scene(const Discretisation& discretisation) const {
   return scene;
 }
 
-std::shared_ptr<const ExactField> AcousticWaveFlow::exact() const {
+std::shared_ptr<const ExactField> AcousticWaveFlow::exact(const std::vector<double>&) const {
   return std::make_shared<AcousticField>(parameters_.axis, solution_);
 }
 
@@ -93,7 +99,7 @@ mpm::Scene ShearWaveFlow::scene(const Discretisation& discretisation) const {
   return scene;
 }
 
-std::shared_ptr<const ExactField> ShearWaveFlow::exact() const {
+std::shared_ptr<const ExactField> ShearWaveFlow::exact(const std::vector<double>&) const {
   return std::make_shared<ShearField>(solution_);
 }
 

@@ -26,10 +26,7 @@ class AcousticWaveFlow final : public Flow {
  public:
   explicit AcousticWaveFlow(const WaveParameters& parameters);
   [[nodiscard]] mpm::Scene scene(const Discretisation& discretisation) const override;
-  [[nodiscard]] std::shared_ptr<const ExactField> exact() const override;
-  [[nodiscard]] std::string exact_description() const override {
-    return "damped standing sound wave, linear theory";
-  }
+  [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const override;
   [[nodiscard]] double velocity_scale() const override { return parameters_.amplitude; }
   [[nodiscard]] Probe probe() const override;
   [[nodiscard]] int across() const override { return parameters_.axis; }
@@ -46,10 +43,7 @@ class ShearWaveFlow final : public Flow {
  public:
   explicit ShearWaveFlow(const WaveParameters& parameters);
   [[nodiscard]] mpm::Scene scene(const Discretisation& discretisation) const override;
-  [[nodiscard]] std::shared_ptr<const ExactField> exact() const override;
-  [[nodiscard]] std::string exact_description() const override {
-    return "decaying shear wave, exact Navier-Stokes";
-  }
+  [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const override;
   [[nodiscard]] double velocity_scale() const override { return parameters_.amplitude; }
   [[nodiscard]] Probe probe() const override;
   [[nodiscard]] int across() const override { return parameters_.axis; }

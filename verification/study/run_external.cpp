@@ -70,7 +70,7 @@ RunData run_external(const Study& study, const PlannedRun& plan, const std::file
   data.plan = &plan;
   const auto exact = study.comparison == Comparison::Discrete
                          ? scene.flow->exact_discrete(scene.discretisation, scene.segments.front().dt)
-                         : scene.flow->exact();
+                         : scene.flow->exact(scene.outputs);
   for (reports::ProfileRow& row : read_foreign_profile(folder / "profile.csv")) {
     row.t = output_time(scene, row.t);
     if (std::isnan(row.t) || (row.location != "grid" && row.location != "particles")) continue;
@@ -80,8 +80,8 @@ RunData run_external(const Study& study, const PlannedRun& plan, const std::file
     row.v_exact = v.y();
     data.profile.push_back(row);
   }
-  if (const auto line = scene.flow->exact()) {
-    const auto rows = exact_lines(scene, *line);
+  if (exact && study.comparison == Comparison::Exact) {
+    const auto rows = exact_lines(scene, *exact);
     data.profile.insert(data.profile.end(), rows.begin(), rows.end());
   }
   data.record = {plan.run,          study.name,

@@ -87,7 +87,7 @@ RunData run_simulation(const Study& study, const PlannedRun& plan) {
   data.plan = &plan;
   const auto exact = study.comparison == Comparison::Discrete
                          ? scene.flow->exact_discrete(scene.discretisation, dt)
-                         : scene.flow->exact();
+                         : scene.flow->exact(scene.outputs);
   const auto begin = std::chrono::steady_clock::now();
   const auto simulation = mpm::make_simulation(scene.scene, scene.scheme);
   Recorder recorder(plan, *simulation, exact.get(), data);
@@ -112,8 +112,8 @@ RunData run_simulation(const Study& study, const PlannedRun& plan) {
                      ? fmt::format("diverged at t = {:.6g} s: {}", outcome.time, *outcome.breakdown)
                      : "completed"};
   data.timing = {plan.run, wall, static_cast<double>(particles) * static_cast<double>(outcome.steps) / wall};
-  if (const auto line = scene.flow->exact(); line && study.comparison == Comparison::Exact) {
-    const auto rows = exact_lines(scene, *line);
+  if (exact && study.comparison == Comparison::Exact) {
+    const auto rows = exact_lines(scene, *exact);
     data.profile.insert(data.profile.end(), rows.begin(), rows.end());
   }
   return data;

@@ -1,0 +1,44 @@
+#include "verification/flows/reference_store.hpp"
+
+#include <cstdlib>
+#include <future>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace verification {
+
+std::filesystem::path reference_cache_directory() {
+  if (const char* chosen = std::getenv("MPM_CACHE")) return chosen;
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg)
+    return std::filesystem::path(xdg) / "mpm-verify";
+  if (const char* home = std::getenv("HOME"); home && *home)
+    return std::filesystem::path(home) / ".cache" / "mpm-verify";
+  return {};
+}
+
+std::shared_ptr<const reference::ChannelSolution> channel_solution(const reference::ChannelProblem& problem) {
+  using Solution = std::shared_ptr<const reference::ChannelSolution>;
+  static std::mutex mutex;
+  static std::map<std::string, std::shared_future<Solution>> solutions;
+  std::promise<Solution> promise;
+  std::shared_future<Solution> future;
+  bool ours = false;
+  {
+    const std::scoped_lock lock(mutex);
+    auto [entry, inserted] = solutions.try_emplace(problem.describe());
+    if (inserted) entry->second = promise.get_future().share();
+    ours = inserted;
+    future = entry->second;
+  }
+  if (ours) {
+    try {
+      promise.set_value(reference::make_channel_solution(problem, reference_cache_directory()));
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  }
+  return future.get();
+}
+
+}  // namespace verification
