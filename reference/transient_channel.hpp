@@ -10,9 +10,9 @@
 namespace reference {
 
 /// Start-up of a channel of any fluid with a monotone flow curve, computed (see TransientSolution) twice,
-/// with a coarse and a fine resolution; the fine one is offered, and their difference is the stated error.
-/// For pure Poiseuille and pure Couette start-up that is well below 1e-9 in velocity; combined flows of
-/// fluids whose flow curve has a kink or worse at zero shear (Cross, power law) reach 1e-5 to 1e-8, as the
+/// with a coarse and a fine resolution; the fine one is offered, and twice their difference is the stated
+/// error. For pure Poiseuille and pure Couette start-up that is well below 1e-9 in velocity; combined flows
+/// of fluids whose flow curve has a kink or worse at zero shear (Cross, power law) reach 1e-5 to 1e-8, as the
 /// zero-shear point moves.
 class TransientChannel : public ChannelSolution {
  public:
@@ -23,8 +23,8 @@ class TransientChannel : public ChannelSolution {
   /// NewtonianChannel is exact) and std::runtime_error if the implicit steps fail to converge.
   explicit TransientChannel(const ChannelProblem& problem, const std::filesystem::path& cache_directory = {});
 
-  /// Any 0 <= t <= the last of the problem's times, listed or not; errors are stated from the first of them
-  /// on.
+  /// Any 0 <= t <= the last of the problem's times, listed or not; the error is stated for the listed ones,
+  /// so a very early time among them raises it.
   [[nodiscard]] double velocity(double y, double t) const override { return solution_.velocity(y, t); }
   [[nodiscard]] double gradient(double y, double t) const override { return solution_.gradient(y, t); }
   [[nodiscard]] double steady_maximum() const override { return steady_maximum_; }

@@ -18,7 +18,7 @@ constexpr double kLeastExponent = 0.1;    // below, the layer's tail spans the g
 
 TransientResolution coarse_resolution(const ChannelProblem& problem) {
   const bool combined = problem.plate_velocity != 0.0 && problem.body_acceleration != 0.0;
-  return combined ? TransientResolution{4, 1e-4, 1e-5, 1e-10} : TransientResolution{10, 5e-7, 1e-6, 1e-11};
+  return combined ? TransientResolution{4, 1e-4, 1e-5, 1e-10} : TransientResolution{10, 3e-7, 1e-6, 1e-11};
 }
 
 TransientResolution fine_resolution(const ChannelProblem& problem) {
@@ -75,9 +75,11 @@ void TransientSolution::choose_layer() {
 
 SpectralLine TransientSolution::mesh() const {
   const double length = whole_gap() ? problem_.height : 0.5 * problem_.height;
-  // A combined flow's zero-shear point, a kink of the flow curve, wanders through the mesh: nothing but size
-  // helps there.
-  const double largest = length / (combined() ? 100.0 : 28.0);
+  // A combined flow's zero-shear point, a kink of the flow curve, wanders through the mesh, and a strongly
+  // thickening fluid ends its layer in a bend that does: nothing but size helps there.
+  const bool bends =
+      problem_.curve.slope(velocity_scale_ / problem_.height) > 4.0 * problem_.curve.slope(0.0);
+  const double largest = length / (combined() ? 100.0 : bends ? 48.0 : 28.0);
   // At the start, the layer or - where it has filled the gap - a few elements; at the far end the centre's
   // |z|^(1/n), or what a landed front leaves, or the lower wall's own layer.
   const double near_end = whole_gap()

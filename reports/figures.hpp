@@ -25,6 +25,9 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
 // One function a kind; each fills title, caption and script.
 Figure profiles_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
 Figure history_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
+/// Kinds "shear-rate" and "viscosity": across a channel at one time, one colour a run (the paper's Figs 4, 5,
+/// 9, 10).
+Figure shear_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
 Figure convergence_figure(const FigureRecord& record, const Results& results);
 Figure work_precision_figure(const FigureRecord& record, const Results& results);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,8 @@ struct LevelRecord {
   std::string location, norm;
   double t = 0;     ///< [s]
   double step = 0;  ///< refined quantity: cell size h [m] for "space", dt [s] for "time"
-  double value =
-      0;  ///< "space": relative error norm; "time": relative norm of the difference to the next finer dt
+  /// "space": relative error norm; "time": relative norm of the difference to the next finer dt
+  double value = 0;
   bool used = true;  ///< false when dropped from the fit (at the round-off floor, or not finite)
 };
 
@@ -95,18 +96,40 @@ struct HistoryRow {
   double kinetic_energy = 0;              ///< of the particles per unit depth [J/m]
 };
 
+/// profiles/<run>.shear.csv: shear rate and viscosity across a channel. location: "cells" (grid field at cell
+/// centres) or "exact" (a fine line).
+struct ShearRow {
+  double t = 0;  ///< [s]
+  std::string location;
+  double place = 0;            ///< distance from the resting plate [m]
+  double shear_rate = 0;       ///< |du/dy| [1/s]
+  double viscosity_ratio = 0;  ///< mu/mu_0 [-]
+};
+
+/// claims.csv: somebody's statement, and what became of it here.
+struct ClaimRecord {
+  std::string claim, study;
+  std::string source;     ///< where it is made: "Fig. 3", "conclusion 3"
+  std::string statement;  ///< what is claimed
+  std::string verdict;    ///< "confirmed", "refuted", "confirmed within bounds"
+  std::string measured;   ///< the numbers that the verdict rests on
+  std::string note;       ///< what to make of it
+  bool stands = true;     ///< every check behind the verdict holds
+};
+
 /// figures.csv: what to draw from the files above. Lists are joined by ';'.
 struct FigureRecord {
   std::string figure;  ///< file stem, unique
   std::string study;
-  std::string kind;       ///< "profiles", "history", "convergence", "work-precision"
-  std::string title;      ///< the claim that the figure shows
-  std::string runs;       ///< runs to draw (profiles, history, work-precision); "" = all of the study
-  std::string labels;     ///< a legend entry for each run; "" = run names
-  std::string across;     ///< coordinate of profiles: "x" or "y"
-  std::string component;  ///< velocity component of profiles: "u" or "v"
-  std::string location;   ///< "grid", "particles", or "grid;particles"
-  std::string norm;       ///< convergence, work-precision: "l1", "l2", "linf"
+  std::string kind;    ///< "profiles", "history", "convergence", "work-precision", "shear-rate", "viscosity"
+  std::string title;   ///< the claim that the figure shows
+  std::string runs;    ///< runs to draw (profiles, history, work-precision); "" = all of the study
+  std::string labels;  ///< a legend entry for each run; "" = run names
+  std::string across;  ///< coordinate of profiles: "x" or "y"
+  std::string component;                                ///< velocity component of profiles: "u" or "v"
+  std::string location;                                 ///< "grid", "particles", or "grid;particles"
+  std::string norm;                                     ///< convergence, work-precision: "l1", "l2", "linf"
+  double t = std::numeric_limits<double>::quiet_NaN();  ///< shear-rate, viscosity: the time shown [s]
 };
 
 /// The content of one result directory, profiles and histories excepted (they are read run by run).
@@ -119,6 +142,7 @@ struct Results {
   std::vector<CheckRecord> checks;
   std::vector<TimingRecord> timings;
   std::vector<FigureRecord> figures;
+  std::vector<ClaimRecord> claims;
 };
 
 }  // namespace reports

@@ -31,6 +31,7 @@ std::string warning_list(const ReportData& data) {
 
 std::string contents(const ReportData& data) {
   std::string text = "<nav aria-label=\"Contents\">\n<b>Contents</b>\n<ul>\n";
+  if (!data.results.claims.empty()) text += "<li><a href=\"#claims\">Claims judged</a></li>\n";
   for (const StudyRecord& study : studies_of(data.results)) {
     std::size_t held = 0;
     const auto checks = checks_of(data.results, study.study);
@@ -44,6 +45,25 @@ std::string contents(const ReportData& data) {
   return text +
          "<li><a href=\"#runs\">Runs and timing</a></li>\n<li><a href=\"#provenance\">Provenance</a></li>\n"
          "</ul>\n</nav>\n";
+}
+
+/// Statements of others, each with its verdict and the numbers that it rests on.
+std::string claim_section(const std::vector<ClaimRecord>& claims) {
+  if (claims.empty()) return "";
+  std::string rows;
+  for (const ClaimRecord& claim : claims) {
+    rows += fmt::format(
+        "<tr><td>{}</td><td class=\"w\">{}</td><td class=\"{}\"><b>{}</b>{}</td><td class=\"w\">{}</td>"
+        "<td class=\"w\">{}</td></tr>\n",
+        html_text(claim.source), html_text(claim.statement), claim.stands ? "pass" : "fail",
+        html_text(claim.verdict), claim.stands ? "" : " (not borne out: a check behind it fails)",
+        html_text(claim.note), html_text(claim.measured));
+  }
+  return "<section>\n<h2 id=\"claims\">Claims judged</h2>\n" +
+         html_table(
+             "<th>source</th><th>claim</th><th>verdict</th><th>what to make of it</th><th>measured</th>",
+             rows, "cards") +
+         "</section>\n";
 }
 
 std::string run_section(const Results& results) {
@@ -110,6 +130,7 @@ std::string html_report(const std::filesystem::path& dir, const ReportData& data
     body += "<section>\n<h2 id=\"failures\">Failures</h2>\n" + html_checks(failed, true) + "</section>\n";
   body += warning_list(data);
   body += contents(data);
+  body += claim_section(data.results.claims);
   for (const StudyRecord& study : studies_of(data.results)) body += html_study(dir, data, study);
   body += run_section(data.results);
   body += provenance_section(data.provenance);

@@ -38,6 +38,20 @@ std::string check_section(const Results& results) {
   return text;
 }
 
+std::string claim_section(const std::vector<ClaimRecord>& claims) {
+  if (claims.empty()) return "";
+  std::string text =
+      "\n## Claims judged\n\n| source | claim | verdict | what to make of it | measured "
+      "|\n|---|---|---|---|---|\n";
+  for (const ClaimRecord& claim : claims) {
+    text += fmt::format("| {} | {} | {}{} | {} | {} |\n", markdown_text(claim.source),
+                        markdown_text(claim.statement), markdown_text(claim.verdict),
+                        claim.stands ? "" : " (**not borne out**)", markdown_text(claim.note),
+                        markdown_text(claim.measured));
+  }
+  return text;
+}
+
 std::string rate_table(const RateTable& table) {
   std::string text = fmt::format("\n{}: {}, {}, norm {}\n\n| {} |", markdown_text(table.variant), table.axis,
                                  markdown_text(table.location), norm_symbol(table.norm),
@@ -142,6 +156,7 @@ std::string markdown_report(const ReportData& data) {
   text += failure_section(data.results);
   if (!data.warnings.empty()) text += "\n## Warnings\n\n";
   for (const std::string& warning : data.warnings) text += "- " + markdown_text(warning) + "\n";
+  text += claim_section(data.results.claims);
   text += check_section(data.results);
   text += order_section(data.results);
   text += diverged_section(data.results);

@@ -95,7 +95,25 @@ constexpr auto figure_columns = std::make_tuple(    //
     column("across", &FigureRecord::across),        //
     column("component", &FigureRecord::component),  //
     column("location", &FigureRecord::location),    //
-    column("norm", &FigureRecord::norm));
+    column("norm", &FigureRecord::norm),            //
+    column("t", &FigureRecord::t));
+
+constexpr auto claim_columns = std::make_tuple(    //
+    column("claim", &ClaimRecord::claim),          //
+    column("study", &ClaimRecord::study),          //
+    column("source", &ClaimRecord::source),        //
+    column("statement", &ClaimRecord::statement),  //
+    column("verdict", &ClaimRecord::verdict),      //
+    column("measured", &ClaimRecord::measured),    //
+    column("note", &ClaimRecord::note),            //
+    column("stands", &ClaimRecord::stands));
+
+constexpr auto shear_columns = std::make_tuple(   //
+    column("t", &ShearRow::t),                    //
+    column("location", &ShearRow::location),      //
+    column("place", &ShearRow::place),            //
+    column("shear_rate", &ShearRow::shear_rate),  //
+    column("viscosity_ratio", &ShearRow::viscosity_ratio));
 
 constexpr auto profile_columns = std::make_tuple(  //
     column("t", &ProfileRow::t),                   //
@@ -135,11 +153,9 @@ bool is_plain_name(const std::string& name) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' ||
            c == '_' || c == '=' || c == '-';
   };
-  const std::string history = ".history";
-  const bool is_history = name.size() >= history.size() &&
-                          name.compare(name.size() - history.size(), history.size(), history) == 0;
+  const bool other_file = name.ends_with(".history") || name.ends_with(".shear");
   // A file name may have 255 bytes; the ending and the temporary file's number need some of them.
-  return !name.empty() && name.size() <= 200 && name.front() != '.' && !is_history &&
+  return !name.empty() && name.size() <= 200 && name.front() != '.' && !other_file &&
          std::all_of(name.begin(), name.end(), plain);
 }
 
@@ -147,7 +163,7 @@ const std::string& require_plain_name(const char* what, const std::string& name)
   if (is_plain_name(name)) return name;
   throw IoError(
       fmt::format("{} name '{}' cannot be a file name; use up to 200 letters, digits and . _ = -, no "
-                  "leading dot, no '.history' at the end",
+                  "leading dot, no '.history' or '.shear' at the end",
                   what, name));
 }
 
@@ -161,6 +177,7 @@ Results read_results(const std::filesystem::path& dir) {
   results.checks = read_csv(dir / "checks.csv", check_columns);
   results.timings = read_csv(dir / "timing.csv", timing_columns);
   results.figures = read_csv(dir / "figures.csv", figure_columns);
+  results.claims = read_csv(dir / "claims.csv", claim_columns);
   require_plain_names(results);
   return results;
 }
@@ -176,6 +193,7 @@ void write_results(const std::filesystem::path& dir, const Results& results) {
   write_csv(dir / "checks.csv", check_columns, results.checks);
   write_csv(dir / "timing.csv", timing_columns, results.timings);
   write_csv(dir / "figures.csv", figure_columns, results.figures);
+  write_csv(dir / "claims.csv", claim_columns, results.claims);
 }
 
 std::vector<ProfileRow> read_profile(const std::filesystem::path& dir, const std::string& run) {
@@ -198,6 +216,17 @@ void write_history(const std::filesystem::path& dir, const std::string& run,
   const auto path = profile_path(dir, run, ".history.csv");
   ensure_directory(path.parent_path());
   write_csv(path, history_columns, rows);
+}
+
+std::vector<ShearRow> read_shear(const std::filesystem::path& dir, const std::string& run) {
+  return read_csv(profile_path(dir, run, ".shear.csv"), shear_columns);
+}
+
+void write_shear(const std::filesystem::path& dir, const std::string& run,
+                 const std::vector<ShearRow>& rows) {
+  const auto path = profile_path(dir, run, ".shear.csv");
+  ensure_directory(path.parent_path());
+  write_csv(path, shear_columns, rows);
 }
 
 }  // namespace reports

@@ -27,12 +27,13 @@ double nominal_time_step(const TimeStepRule& rule, const Scene& scene) {
 }
 
 std::vector<Segment> plan_segments(const TimeStepRule& rule, const Scene& scene,
-                                   const std::vector<double>& outputs) {
+                                   const std::vector<double>& outputs, double begin) {
   const double dt = nominal_time_step(rule, scene);
   std::vector<Segment> segments;
-  double begin = 0;
+
   for (const double end : outputs) {
-    if (!(end > begin) || !std::isfinite(end)) throw SceneError("output times must be positive and increase");
+    if (!(end > begin) || !std::isfinite(end))
+      throw SceneError("output times must lie beyond the start and increase");
     const double ratio = (end - begin) / dt;
     if (ratio > 1e12) throw SceneError("dt is too small for the end time: over 1e12 steps");
     const long steps = std::max(1L, static_cast<long>(std::ceil(ratio - sliver)));

@@ -35,9 +35,10 @@ struct Segment {
   [[nodiscard]] double length(long k) const { return time(k + 1) - time(k); }
 };
 
-/// Cuts [0, last output] into segments that end exactly on the output times (increasing, positive [s]).
+/// Cuts [begin, last output] into segments that end exactly on the output times (increasing, beyond `begin`
+/// [s]).
 std::vector<Segment> plan_segments(const TimeStepRule& rule, const Scene& scene,
-                                   const std::vector<double>& outputs);
+                                   const std::vector<double>& outputs, double begin = 0);
 
 /// What became of a run.
 struct Outcome {

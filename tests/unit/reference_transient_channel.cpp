@@ -134,8 +134,11 @@ TEST_CASE("transient channel: joins its exact beginning and its steady end") {
 
 TEST_CASE("transient channel: walls, symmetries and rest") {
   const FlowCurve curve = CrossCurve{1e-6, 0.25e-6, 1.0, 1.0};
-  const TransientChannel poiseuille(problem(curve, -kForce, 0.0, {0.05, 0.2})),
-      couette(problem(curve, 0.0, kPlate, {0.05, 0.2}));
+  const TransientResolution resolution{8, 1e-5, 1e-6, 1e-11};
+  TransientSolution poiseuille(problem(curve, -kForce, 0.0, {0.05, 0.2}), resolution);
+  TransientSolution couette(problem(curve, 0.0, kPlate, {0.05, 0.2}), resolution);
+  poiseuille.solve();
+  couette.solve();
   for (double t : {0.0, 1e-12, 1e-5, 0.05, 0.2}) {
     CHECK(poiseuille.velocity(0.0, t) == 0.0);
     CHECK(poiseuille.velocity(kHeight, t) == 0.0);
@@ -207,7 +210,7 @@ TEST_CASE("transient channel: the cache gives the same bytes back, and nothing t
     std::filesystem::resize_file(stored, 0);
   }
   SECTION("another problem's") {
-    std::ofstream(stored, std::ios::binary) << "mpm-verify transient reference, format 1\nsomething else\n";
+    std::ofstream(stored, std::ios::binary) << "mpm-verify transient reference, format 2\nsomething else\n";
   }
   const TransientChannel third(thickening, scratch.path);
   CHECK_FALSE(third.from_cache());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "verification/checks/check_keys.hpp"
 #include "verification/checks/check_reader.hpp"
 #include "verification/checks/comparison.hpp"
 #include "verification/study/measures.hpp"
@@ -14,69 +15,6 @@ namespace {
 using Records = std::vector<reports::CheckRecord>;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::string label(const std::string& variant) {
-  return variant.empty() ? "" : variant + ": ";
-}
-
-// ---- keys that several kinds share
-
-void require_upper(TomlTable& table, CheckSpec& spec, double lower) {
-  if (!table.has("upper")) table.fail_missing("upper", "give the tolerance");
-  if (!std::isfinite(spec.lower)) spec.lower = lower;
-}
-
-void require_band(TomlTable& table) {
-  for (const char* key : {"lower", "upper"})
-    if (!table.has(key)) table.fail_missing(key, "give a two-sided band");
-}
-
-void read_locations(TomlTable& table, CheckSpec& spec) {
-  const std::vector<std::string> words =
-      table.has("locations") ? table.texts("locations") : std::vector<std::string>{"grid", "particles"};
-  for (const std::string& word : words) {
-    if (word != "grid" && word != "particles") table.fail("locations", "may hold \"grid\" and \"particles\"");
-    spec.locations.push_back(word == "grid" ? Location::Grid : Location::Particles);
-  }
-}
-
-void read_norm(TomlTable& table, CheckSpec& spec) {
-  spec.norm = table.text("norm", "l2");
-  if (spec.norm != "l1" && spec.norm != "l2" && spec.norm != "linf")
-    table.fail("norm", "must be \"l1\", \"l2\" or \"linf\"");
-}
-
-void read_times(TomlTable& table, const Study& study, CheckSpec& spec) {
-  const std::vector<double>& outputs = study.runs.front().scene.outputs;
-  spec.times = table.has("times") ? table.numbers("times") : outputs;
-  for (const PlannedRun& run : study.runs) {
-    if (std::ranges::count(spec.variants, run.variant) == 0) continue;
-    for (const double t : spec.times)
-      if (std::ranges::count(run.scene.outputs, t) == 0)
-        table.fail("times", fmt::format("{} s is no output time of run {}", t, run.run));
-  }
-}
-
-void read_level(TomlTable& table, CheckSpec& spec) {
-  spec.level = table.text("level", "finest");
-  if (spec.level != "finest" && spec.level != "coarsest" && spec.level != "all")
-    table.fail("level", "must be \"finest\", \"coarsest\" or \"all\"");
-}
-
-std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& data,
-                                      const std::string& variant) {
-  auto runs = data.runs_of(variant);
-  if (spec.level == "finest") return {runs.back()};
-  if (spec.level == "coarsest") return {runs.front()};
-  return runs;
-}
-
-/// "variant: n20" where a check speaks of several levels.
-std::string label(const CheckSpec& spec, const RunData& run) {
-  if (spec.level != "all" || run.record.run.size() <= run.record.study.size())
-    return label(run.plan->variant);
-  return run.record.run.substr(run.record.study.size() + 1) + ": ";
-}
-
 // ---- error: a relative error norm at each time
 
 void read_error(TomlTable& table, const Study& study, CheckSpec& spec) {
@@ -84,7 +22,7 @@ void read_error(TomlTable& table, const Study& study, CheckSpec& spec) {
   read_locations(table, spec);
   read_norm(table, spec);
   read_times(table, study, spec);
-  read_level(table, spec);
+  read_level(table, study, spec);
 }
 
 void evaluate_error(const CheckSpec& spec, const StudyData& data, Records& records) {
@@ -128,7 +66,7 @@ void evaluate_order(const CheckSpec& spec, const StudyData& data, Records& recor
 void read_bias(TomlTable& table, const Study& study, CheckSpec& spec) {
   require_band(table);
   read_times(table, study, spec);
-  read_level(table, spec);
+  read_level(table, study, spec);
   for (const PlannedRun& run : study.runs)
     if (std::ranges::count(spec.variants, run.variant) > 0 && !std::isfinite(run.scene.flow->bias_unit(1)))
       table.fail("kind", "\"particle-bias\" is for channels (run " + run.run + ")");
@@ -148,12 +86,8 @@ void read_difference(TomlTable& table, const Study& study, CheckSpec& spec) {
   require_upper(table, spec, 0);
   read_locations(table, spec);
   read_times(table, study, spec);
-  read_level(table, spec);
-  spec.against = table.text("against");
-  if (std::ranges::count(study.variants, spec.against) == 0)
-    table.fail("against", "'" + spec.against + "' is no variant of this study");
-  std::erase(spec.variants, spec.against);
-  if (spec.variants.empty()) table.fail("against", "leaves no variant to compare");
+  read_level(table, study, spec);
+  read_against(table, study, spec);
 }
 
 void evaluate_difference(const CheckSpec& spec, const StudyData& data, Records& records) {
@@ -172,9 +106,9 @@ void evaluate_difference(const CheckSpec& spec, const StudyData& data, Records& 
 
 // ---- conservation: mass, or momentum against the impulse of body and wall forces
 
-void read_conservation(TomlTable& table, const Study&, CheckSpec& spec) {
+void read_conservation(TomlTable& table, const Study& study, CheckSpec& spec) {
   require_upper(table, spec, 0);
-  read_level(table, spec);
+  read_level(table, study, spec);
   spec.quantity = table.text("quantity");
   if (spec.quantity != "mass" && spec.quantity != "momentum")
     table.fail("quantity", "must be \"mass\" or \"momentum\"");
@@ -205,14 +139,18 @@ void evaluate_divergence(const CheckSpec& spec, const StudyData& data, Records& 
 }  // namespace
 
 const std::vector<CheckKind>& check_kinds() {
-  static const std::vector<CheckKind> kinds = {
-      {"error", read_error, evaluate_error},
-      {"order", read_order, evaluate_order},
-      {"particle-bias", read_bias, evaluate_bias},
-      {"difference", read_difference, evaluate_difference},
-      {"conservation", read_conservation, evaluate_conservation},
-      {"divergence", read_divergence, evaluate_divergence},
-  };
+  static const std::vector<CheckKind> kinds = [] {
+    std::vector<CheckKind> list = {
+        {"error", read_error, evaluate_error},
+        {"order", read_order, evaluate_order},
+        {"particle-bias", read_bias, evaluate_bias},
+        {"difference", read_difference, evaluate_difference},
+        {"conservation", read_conservation, evaluate_conservation},
+        {"divergence", read_divergence, evaluate_divergence},
+    };
+    add_quantity_kinds(list);
+    return list;
+  }();
   return kinds;
 }
 

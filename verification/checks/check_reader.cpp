@@ -1,5 +1,7 @@
 #include "verification/checks/check_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,6 +40,7 @@ CheckSpec read_check(TomlTable& table, const Study& study) {
   spec.lower = table.number("lower", spec.lower);
   spec.upper = table.number("upper", spec.upper);
   if (spec.lower > spec.upper) table.fail("lower", "must not exceed upper");
+  spec.claim = table.text("evidence_for", "");
   const CheckKind& kind = kind_named(spec.kind, table);
   kind.read(table, study, spec);
   table.refuse_unknown_keys();
@@ -51,13 +54,38 @@ reports::CheckRecord judge(const CheckSpec& spec, const StudyData& data, const s
           holds ? "pass" : "fail", spec.reason};
 }
 
+namespace {
+
+using Evidence = std::vector<std::pair<std::string, reports::CheckRecord>>;  // claim, check
+
+/// The claim as it stands after its checks: borne out only if all of them hold.
+reports::ClaimRecord judged(const ClaimSpec& claim, const StudyData& data, const Evidence& evidence) {
+  reports::ClaimRecord record{claim.id, data.study->name, claim.source, claim.statement, claim.verdict,
+                              "",       claim.note,       true};
+  for (const auto& [id, check] : evidence) {
+    if (id != claim.id) continue;
+    record.measured += fmt::format("{}{}: {:.4g}{}", record.measured.empty() ? "" : "; ", check.check,
+                                   check.observed, check.unit == "1" ? "" : " " + check.unit);
+    record.stands = record.stands && check.verdict == "pass";
+  }
+  return record;
+}
+
+}  // namespace
+
 void evaluate_checks(StudyData& data) {
+  Evidence evidence;
+
   bool fate_declared = false;
   for (const CheckSpec& spec : data.study->checks) {
+    const std::size_t before = data.checks.size();
     kind_named(spec.kind, TomlTable::from_text("", data.study->name)).evaluate(spec, data, data.checks);
+    for (std::size_t i = before; i < data.checks.size(); ++i)
+      evidence.emplace_back(spec.claim, data.checks[i]);
     fate_declared |= spec.kind == "divergence";
   }
   if (!fate_declared) data.checks.push_back(completion(data));
+  for (const ClaimSpec& claim : data.study->claims) data.claims.push_back(judged(claim, data, evidence));
 }
 
 }  // namespace verification

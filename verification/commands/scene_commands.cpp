@@ -63,6 +63,7 @@ int solve_command(const SceneOptions& options) {
   data.errors = measure_errors(data);
   reports::write_profile(options.out, data.record.run, data.profile);
   reports::write_history(options.out, data.record.run, data.history);
+  if (!data.shear.empty()) reports::write_shear(options.out, data.record.run, data.shear);
   write_interchange(options.out, data);
 
   reports::Results results;
@@ -92,7 +93,7 @@ int solve_command(const SceneOptions& options) {
 int reference_command(const SceneOptions& options) {
   const Study study = study_of_scene(options);
   const SceneConfig& scene = study.runs.front().scene;
-  const auto exact = scene.flow->exact(scene.outputs);
+  const auto exact = scene.flow->exact(scene.reference_times());
   if (!exact)
     throw ConfigError(options.scene.string() + ": key 'scene.flow': no exact solution is known for '" +
                       scene.flow_name + "'");

@@ -75,6 +75,12 @@ const std::vector<std::string>& scene_tables() {
   return tables;
 }
 
+std::vector<double> SceneConfig::reference_times() const {
+  std::vector<double> times = outputs;
+  if (start > 0) times.insert(times.begin(), start);
+  return times;
+}
+
 long SceneConfig::particles() const {
   return static_cast<long>(scene.cells[0]) * scene.cells[1] * scene.particles_per_cell[0] *
          scene.particles_per_cell[1];
@@ -100,7 +106,11 @@ SceneConfig read_scene_config(TomlTable root) {
   config.discretisation = read_discretisation(root.table("discretisation"));
   config.scheme = read_scheme(root.table("scheme"));
   TomlTable time = root.table("time");
+  config.start = time.has("start") ? time.positive("start") : 0;
+  if (config.start > 0 && !config.flow->has_exact())
+    time.fail("start", "needs a flow with an exact solution");
   config.outputs = read_outputs(time);
+  if (config.outputs.front() <= config.start) time.fail("outputs", "must lie beyond time.start");
   config.time_step = read_time_step(time);
   config.history_samples = time.integer("history_samples", 100);
   if (config.history_samples < 1) time.fail("history_samples", "must be at least 1");
@@ -109,7 +119,7 @@ SceneConfig read_scene_config(TomlTable root) {
   config.scene = config.flow->scene(config.discretisation);
   try {
     config.scene.validate();
-    config.segments = mpm::plan_segments(config.time_step, config.scene, config.outputs);
+    config.segments = mpm::plan_segments(config.time_step, config.scene, config.outputs, config.start);
   } catch (const mpm::SceneError& error) {
     root.fail(config.time_step.dt > 0 ? "time.dt" : "scene", error.what());
   }

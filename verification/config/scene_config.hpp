@@ -21,11 +21,14 @@ struct SceneConfig {
   Discretisation discretisation;
   mpm::Scheme scheme;
   mpm::TimeStepRule time_step;
+  double start = 0;  ///< time at which the run starts, from the exact solution if not from rest [s]
   std::vector<double> outputs;  ///< output times, increasing [s]
   int history_samples = 0;      ///< points in the history, evenly spread over the run
   mpm::Scene scene;             ///< the solver's scene that follows from all this
   std::vector<mpm::Segment> segments;
 
+  /// Times at which the reference is wanted [s].
+  [[nodiscard]] std::vector<double> reference_times() const;
   [[nodiscard]] long particles() const;
   [[nodiscard]] long steps() const;
   /// Particles times steps: what the run costs on any machine.

@@ -69,6 +69,27 @@ class DiscreteChannel final : public ExactField {
   mutable std::vector<double> nodes_, rows_;
 };
 
+/// Steady nodal values of the linear scheme; particles have none.
+class SteadyNodes final : public ExactField {
+ public:
+  SteadyNodes(int axis, double height, std::vector<double> nodes)
+      : axis_(axis), height_(height), nodes_(std::move(nodes)) {}
+  [[nodiscard]] Vec2 velocity(const Vec2& x, double, Location location) const override {
+    const double s = x[1 - axis_] / height_ * static_cast<double>(nodes_.size() - 1);
+    const double j = std::round(s);
+    // 1e-6 of a cell: corners are computed, anything else is not a node.
+    if (location == Location::Particles || std::abs(s - j) > 1e-6)
+      return Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
+    return nodes_.at(static_cast<std::size_t>(j)) * unit(axis_);
+  }
+  [[nodiscard]] std::string description() const override { return "exact steady nodes of the linear scheme"; }
+
+ private:
+  int axis_;
+  double height_;
+  std::vector<double> nodes_;
+};
+
 }  // namespace
 
 ChannelFlow::ChannelFlow(const ChannelParameters& parameters) : parameters_(parameters) {
@@ -110,6 +131,14 @@ std::shared_ptr<const ExactField> ChannelFlow::exact_discrete(const Discretisati
       parameters_.axis,
       reference::DiscreteUsfChannelParameters{parameters_.height, d.cells, d.particles_across, *nu,
                                               parameters_.body_acceleration, parameters_.plate_velocity, dt});
+}
+
+std::shared_ptr<const ExactField> ChannelFlow::steady_nodes(const Discretisation& d) const {
+  if (parameters_.plate_velocity != 0) return nullptr;
+  const reference::SteadyChannel steady(parameters_.height, parameters_.body_acceleration, 0,
+                                        parameters_.fluid.curve);
+  return std::make_shared<SteadyNodes>(parameters_.axis, parameters_.height,
+                                       steady.linear_scheme_nodes(d.cells));
 }
 
 Probe ChannelFlow::probe() const {

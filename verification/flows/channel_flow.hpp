@@ -26,7 +26,10 @@ class ChannelFlow final : public Flow {
   [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> exact_discrete(const Discretisation& discretisation,
                                                                  double dt) const override;
+  [[nodiscard]] std::shared_ptr<const ExactField> steady_nodes(
+      const Discretisation& discretisation) const override;
   [[nodiscard]] double velocity_scale() const override { return steady_maximum_; }
+  [[nodiscard]] bool has_shear_profile() const override { return true; }
   [[nodiscard]] double steady_probe() const override { return steady_mid_height_; }
   [[nodiscard]] Probe probe() const override;
   [[nodiscard]] int across() const override { return 1 - parameters_.axis; }

@@ -63,8 +63,15 @@ class Flow {
     return nullptr;
   }
 
+  /// The exact steady nodal values of the linear scheme, for any fluid; null where none are known.
+  [[nodiscard]] virtual std::shared_ptr<const ExactField> steady_nodes(const Discretisation&) const {
+    return nullptr;
+  }
+
   /// Velocity that errors are divided by [m/s].
   [[nodiscard]] virtual double velocity_scale() const = 0;
+  /// Whether shear rate and viscosity across the flow are of interest (channels).
+  [[nodiscard]] virtual bool has_shear_profile() const { return false; }
   /// Velocity at the probe in the steady state [m/s]; NaN where there is none.
   [[nodiscard]] virtual double steady_probe() const;
   [[nodiscard]] virtual Probe probe() const = 0;

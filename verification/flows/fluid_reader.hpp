@@ -14,6 +14,11 @@ struct FluidConfig {
   double kinematic_viscosity = 0;  ///< nu_0 [m2/s]: of the Newtonian limit, or at 1/s for a power law
   reference::FlowCurve curve{reference::NewtonianCurve{1}};  ///< for the reference
   mpm::Fluid solver;                                         ///< the same for the solver
+
+  /// mu/mu_0 at a shear rate [1/s], by the reference's flow curve.
+  [[nodiscard]] double viscosity_ratio(double shear_rate) const {
+    return curve.viscosity(shear_rate) / kinematic_viscosity;
+  }
 };
 
 /// Reads [fluid]: model, kinematic_viscosity, density, pressure, bulk_modulus and the keys of the model.

@@ -17,7 +17,8 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
   reports::FigureRecord figure;
   figure.study = study.name;
   figure.kind = table.text("kind");
-  static const std::vector<std::string> kinds = {"profiles", "history", "convergence", "work-precision"};
+  static const std::vector<std::string> kinds = {"profiles",       "history",    "convergence",
+                                                 "work-precision", "shear-rate", "viscosity"};
   if (std::ranges::count(kinds, figure.kind) == 0) table.fail("kind", "must be one of: " + joined(kinds));
   figure.title = table.text("title");
   figure.norm = table.text("norm", "l2");
@@ -36,7 +37,14 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
     last = ladder.back();
     runs.push_back(last->run);
   }
-  if (figure.kind == "profiles" || figure.kind == "history") {
+  const bool shear = figure.kind == "shear-rate" || figure.kind == "viscosity";
+  if (shear) {
+    figure.t = table.number("t");
+    if (std::ranges::count(last->scene.outputs, figure.t) == 0)
+      table.fail("t", "is no output time of the study");
+    if (!last->scene.flow->has_shear_profile()) table.fail("kind", "is for channels");
+  }
+  if (shear || figure.kind == "profiles" || figure.kind == "history") {
     if (figure.kind == "profiles" && runs.size() > 1)
       table.fail("variants", "a profile figure shows one variant");
     figure.runs = joined(runs);

@@ -17,6 +17,7 @@ struct RunData {
   reports::TimingRecord timing;
   std::vector<reports::ProfileRow> profile;
   std::vector<reports::HistoryRow> history;
+  std::vector<reports::ShearRow> shear;  ///< channels only
   std::vector<double> probe;  ///< streamwise grid velocity at the probe at each output reached [m/s]
   std::vector<reports::ErrorRecord> errors;
 
@@ -30,6 +31,7 @@ struct StudyData {
   std::vector<reports::LevelRecord> levels;
   std::vector<reports::OrderRecord> orders;
   std::vector<reports::CheckRecord> checks;
+  std::vector<reports::ClaimRecord> claims;
 
   [[nodiscard]] std::vector<const RunData*> runs_of(const std::string& variant) const {
     std::vector<const RunData*> found;

@@ -68,9 +68,7 @@ RunData run_external(const Study& study, const PlannedRun& plan, const std::file
 
   RunData data;
   data.plan = &plan;
-  const auto exact = study.comparison == Comparison::Discrete
-                         ? scene.flow->exact_discrete(scene.discretisation, scene.segments.front().dt)
-                         : scene.flow->exact(scene.outputs);
+  const auto exact = compared_with(study, scene);
   for (reports::ProfileRow& row : read_foreign_profile(folder / "profile.csv")) {
     row.t = output_time(scene, row.t);
     if (std::isnan(row.t) || (row.location != "grid" && row.location != "particles")) continue;

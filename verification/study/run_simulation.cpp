@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 #include "solver/simulation.hpp"
@@ -21,11 +22,12 @@ class Recorder {
         exact_(exact),
         data_(data),
         corners_(mpm::cell_corners(plan.scene.scene)) {
-    record_history(0);
+    record_history(plan.scene.start);
   }
 
   void after_step(double t) {
-    const double due = scene_.outputs.back() * static_cast<double>(samples_) / scene_.history_samples;
+    const double due = scene_.start + (scene_.outputs.back() - scene_.start) * static_cast<double>(samples_) /
+                                          scene_.history_samples;
     if (t < due * (1 - 1e-9)) return;
     record_history(t);
   }
@@ -37,12 +39,30 @@ class Recorder {
     for (std::size_t p = 0; p < particles.size(); ++p)
       add(t, Location::Particles, particles.position[p], particles.velocity[p]);
     data_.probe.push_back(probe_velocity(t));
+    if (scene_.flow->has_shear_profile()) add_shear(t);
   }
 
  private:
   void add(double t, Location location, const Vec2& x, const Vec2& v) {
     const Vec2 exact = exact_ ? exact_->velocity(x, t, location) : Vec2(nan, nan);
     data_.profile.push_back({t, name(location), x.x(), x.y(), v.x(), v.y(), exact.x(), exact.y()});
+  }
+
+  /// Shear rate sqrt(2 D:D) and viscosity ratio at the centres of the cells under the probe.
+  void add_shear(double t) {
+    const int cells = scene_.discretisation.cells, across = scene_.flow->across();
+    mpm::VectorField centres;
+    for (int j = 0; j < cells; ++j) {
+      Vec2 x = Vec2::Constant(0.5 * scene_.scene.cell_size(1 - across));
+      x[across] = (j + 0.5) * scene_.cell_size();
+      centres.push_back(x);
+    }
+    const std::vector<mpm::Mat2> gradients = simulation_.grid_gradient(centres, t);
+    for (std::size_t j = 0; j < centres.size(); ++j) {
+      const mpm::Mat2 d = 0.5 * (gradients[j] + gradients[j].transpose());
+      const double rate = std::sqrt(2 * d.squaredNorm());
+      data_.shear.push_back({t, "cells", centres[j][across], rate, scene_.fluid.viscosity_ratio(rate)});
+    }
   }
 
   [[nodiscard]] double probe_velocity(double t) const {
@@ -80,16 +100,41 @@ std::vector<reports::ProfileRow> exact_lines(const SceneConfig& scene, const Exa
   return rows;
 }
 
+namespace {
+
+std::vector<reports::ShearRow> exact_shear(const SceneConfig& scene, const ExactField& exact) {
+  std::vector<reports::ShearRow> rows;
+  for (const double t : scene.outputs)
+    for (const Vec2& x : scene.flow->exact_line())
+      if (const auto rate = exact.shear_rate(x, t))
+        rows.push_back({t, "exact", x[scene.flow->across()], *rate, scene.fluid.viscosity_ratio(*rate)});
+  return rows;
+}
+
+}  // namespace
+
+std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneConfig& scene) {
+  switch (study.comparison) {
+    case Comparison::Discrete:
+      return scene.flow->exact_discrete(scene.discretisation, scene.segments.front().dt);
+    case Comparison::SteadyNodes:
+      return scene.flow->steady_nodes(scene.discretisation);
+    default:
+      return scene.flow->exact(scene.reference_times());
+  }
+}
+
 RunData run_simulation(const Study& study, const PlannedRun& plan) {
   const SceneConfig& scene = plan.scene;
-  const double dt = mpm::nominal_time_step(scene.time_step, scene.scene);
   RunData data;
   data.plan = &plan;
-  const auto exact = study.comparison == Comparison::Discrete
-                         ? scene.flow->exact_discrete(scene.discretisation, dt)
-                         : scene.flow->exact(scene.outputs);
+  const auto exact = compared_with(study, scene);
+  mpm::Scene started = scene.scene;
+  if (scene.start > 0)
+    started.initial_velocity = [field = scene.flow->exact(scene.reference_times()), t = scene.start](
+                                   const Vec2& x) { return field->velocity(x, t, Location::Particles); };
   const auto begin = std::chrono::steady_clock::now();
-  const auto simulation = mpm::make_simulation(scene.scene, scene.scheme);
+  const auto simulation = mpm::make_simulation(started, scene.scheme);
   Recorder recorder(plan, *simulation, exact.get(), data);
   const mpm::Outcome outcome = mpm::run(
       *simulation, scene.segments, [&](double t) { recorder.after_step(t); },
@@ -115,6 +160,8 @@ RunData run_simulation(const Study& study, const PlannedRun& plan) {
   if (exact && study.comparison == Comparison::Exact) {
     const auto rows = exact_lines(scene, *exact);
     data.profile.insert(data.profile.end(), rows.begin(), rows.end());
+    const auto shear = exact_shear(scene, *exact);
+    data.shear.insert(data.shear.end(), shear.begin(), shear.end());
   }
   return data;
 }

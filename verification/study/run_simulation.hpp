@@ -8,6 +8,9 @@ namespace verification {
 /// down is recorded ("diverged at t = ..."); its profiles end with the last output reached.
 RunData run_simulation(const Study& study, const PlannedRun& plan);
 
+/// What the study compares a scene with; null where nothing is known.
+std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneConfig& scene);
+
 /// Fine exact lines at the output times, for figures and for `reference`.
 std::vector<reports::ProfileRow> exact_lines(const SceneConfig& scene, const ExactField& exact);
 

@@ -15,8 +15,9 @@ std::string name(Suite suite);
 /// Throws ConfigError for an unknown name.
 Suite suite_named(const std::string& text);
 
-/// What a run is compared with: the differential equations' solution, or the scheme's own.
-enum class Comparison { Exact, Discrete };
+/// What a run is compared with: the differential equations' solution, or the scheme's own (Discrete: a
+/// Newtonian channel at any time; SteadyNodes: any fluid, on the grid, once nothing changes any more).
+enum class Comparison { Exact, Discrete, SteadyNodes };
 
 /// One simulation of a study.
 struct PlannedRun {
@@ -49,10 +50,18 @@ struct CheckSpec {
   std::vector<double> times;  ///< [s]
   std::string level;          ///< "finest", "coarsest", "all"
   std::string against;        ///< variant to compare with
-  std::string quantity;       ///< conserved quantity
+  int cells = 0;              ///< level chosen by its resolution; 0: by `level`
+  std::string quantity;       ///< conserved quantity, or one of checks/quantities.hpp
+  double place = 0;           ///< fraction of the gap
+  std::string claim;          ///< that this check is evidence for; "" for none
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   std::string reason;
+};
+
+/// A statement of the paper (or of anybody), judged by the checks that name it.
+struct ClaimSpec {
+  std::string id, source, statement, verdict, note;
 };
 
 /// A study: what to run, refine and measure, and what must hold. Read from TOML by read_study().
@@ -65,6 +74,7 @@ struct Study {
   std::vector<std::string> variants;
   std::vector<PlannedRun> runs;  ///< variant by variant, coarse to fine
   std::vector<CheckSpec> checks;
+  std::vector<ClaimSpec> claims;
   std::vector<reports::FigureRecord> figures;
 
   [[nodiscard]] double particle_steps() const;

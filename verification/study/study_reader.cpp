@@ -91,8 +91,7 @@ void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
   }
   for (TomlTable& variant : variants) {
     const std::string name = variant.text("name");
-    if (!reports::is_plain_name(name) || name.find('.') != std::string::npos)
-      variant.fail("name", "may hold letters, digits and _ = - only");
+    if (!reports::is_plain_name(name)) variant.fail("name", "may hold letters, digits and . _ = - only");
     if (std::ranges::count(study.variants, name) > 0) variant.fail("name", "'" + name + "' stands twice");
     study.variants.push_back(name);
     const TomlTable overrides = variant.restricted_to(scene_tables());
@@ -102,7 +101,41 @@ void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
   }
 }
 
+Comparison read_comparison(TomlTable& root) {
+  const std::string comparison = root.text("compare_with", "exact");
+  if (comparison == "exact") return Comparison::Exact;
+  if (comparison == "discrete") return Comparison::Discrete;
+  if (comparison == "steady-nodes") return Comparison::SteadyNodes;
+  root.fail("compare_with", "must be \"exact\", \"discrete\" or \"steady-nodes\"");
+}
+
+ClaimSpec read_claim(TomlTable& table) {
+  ClaimSpec claim{table.text("id"), table.text("source"), table.text("statement"), table.text("verdict"),
+                  table.text("note", "")};
+  if (claim.verdict != "confirmed" && claim.verdict != "refuted" &&
+      claim.verdict != "confirmed within bounds")
+    table.fail("verdict", "must be \"confirmed\", \"refuted\" or \"confirmed within bounds\"");
+  table.refuse_unknown_keys();
+  return claim;
+}
+
+/// Every claim rests on a check, and every check that names a claim names one that is there.
+void require_evidence(const TomlTable& root, const Study& study) {
+  for (const ClaimSpec& claim : study.claims)
+    if (std::ranges::count(study.checks, claim.id, &CheckSpec::claim) == 0)
+      root.fail("statement", "'" + claim.id + "' rests on no check; name it as evidence_for in a [[check]]");
+  for (const CheckSpec& check : study.checks)
+    if (!check.claim.empty() && std::ranges::count(study.claims, check.claim, &ClaimSpec::id) == 0)
+      root.fail("check", "is evidence for '" + check.claim + "', which is not there");
+}
+
 void require_comparable(const TomlTable& root, const Study& study) {
+  if (study.comparison == Comparison::SteadyNodes)
+    for (const PlannedRun& planned : study.runs)
+      if (!planned.scene.flow->steady_nodes(planned.scene.discretisation))
+        root.fail("compare_with",
+                  "\"steady-nodes\" is known for Poiseuille flow only (run " + planned.run + ")");
+
   if (study.comparison != Comparison::Discrete) return;
   for (const PlannedRun& planned : study.runs) {
     const SceneConfig& scene = planned.scene;
@@ -133,10 +166,7 @@ Study read_study(const std::filesystem::path& file) {
   } catch (const ConfigError& error) {
     root.fail("suite", error.what());
   }
-  const std::string comparison = root.text("compare_with", "exact");
-  if (comparison != "exact" && comparison != "discrete")
-    root.fail("compare_with", "must be \"exact\" or \"discrete\"");
-  study.comparison = comparison == "exact" ? Comparison::Exact : Comparison::Discrete;
+  study.comparison = read_comparison(root);
   study.ladder = read_ladder(root.table("ladder"), root.has("ladder"));
   if (root.has("solver")) {
     TomlTable solver = root.table("solver");
@@ -149,6 +179,8 @@ Study read_study(const std::filesystem::path& file) {
   for (TomlTable& table : root.tables("check")) study.checks.push_back(read_check(table, study));
   if (study.checks.empty())
     root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");
+  for (TomlTable& table : root.tables("statement")) study.claims.push_back(read_claim(table));
+  require_evidence(root, study);
   for (TomlTable& table : root.tables("figure")) study.figures.push_back(read_figure(table, study));
   root.refuse_unknown_keys();
   return study;

@@ -109,6 +109,7 @@ class SuiteRunner {
     RunData data = simulate(study, plan);
     reports::write_profile(out_, plan.run, data.profile);
     reports::write_history(out_, plan.run, data.history);
+    if (!data.shear.empty()) reports::write_shear(out_, plan.run, data.shear);
 
     const std::scoped_lock lock(mutex_);
     data_[job.study].runs[job.run] = std::move(data);
@@ -137,6 +138,7 @@ class SuiteRunner {
     for (RunData& run : data.runs) {
       run.profile = {};  // on disk by now; a suite would hold gigabytes otherwise
       run.history = {};
+      run.shear = {};
     }
     if (listener_.study_ended) listener_.study_ended(data);
   }
@@ -156,6 +158,7 @@ class SuiteRunner {
       append(results.levels, data_[s].levels);
       append(results.orders, data_[s].orders);
       append(results.checks, data_[s].checks);
+      append(results.claims, data_[s].claims);
       append(results.figures, study.figures);
     }
     return results;

@@ -1,0 +1,88 @@
+#include "verification/checks/check_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace verification {
+
+std::string label(const std::string& variant) {
+  return variant.empty() ? "" : variant + ": ";
+}
+
+void require_upper(TomlTable& table, CheckSpec& spec, double lower) {
+  if (!table.has("upper")) table.fail_missing("upper", "give the tolerance");
+  if (!std::isfinite(spec.lower)) spec.lower = lower;
+}
+
+void require_band(TomlTable& table) {
+  for (const char* key : {"lower", "upper"})
+    if (!table.has(key)) table.fail_missing(key, "give a two-sided band");
+}
+
+void read_locations(TomlTable& table, CheckSpec& spec) {
+  const std::vector<std::string> words =
+      table.has("locations") ? table.texts("locations") : std::vector<std::string>{"grid", "particles"};
+  for (const std::string& word : words) {
+    if (word != "grid" && word != "particles") table.fail("locations", "may hold \"grid\" and \"particles\"");
+    spec.locations.push_back(word == "grid" ? Location::Grid : Location::Particles);
+  }
+}
+
+void read_norm(TomlTable& table, CheckSpec& spec) {
+  spec.norm = table.text("norm", "l2");
+  if (spec.norm != "l1" && spec.norm != "l2" && spec.norm != "linf")
+    table.fail("norm", "must be \"l1\", \"l2\" or \"linf\"");
+}
+
+void read_times(TomlTable& table, const Study& study, CheckSpec& spec) {
+  const std::vector<double>& outputs = study.runs.front().scene.outputs;
+  spec.times = table.has("times") ? table.numbers("times") : outputs;
+  for (const PlannedRun& run : study.runs) {
+    if (std::ranges::count(spec.variants, run.variant) == 0) continue;
+    for (const double t : spec.times)
+      if (std::ranges::count(run.scene.outputs, t) == 0)
+        table.fail("times", fmt::format("{} s is no output time of run {}", t, run.run));
+  }
+}
+
+void read_level(TomlTable& table, const Study& study, CheckSpec& spec) {
+  if (table.has("cells")) {
+    spec.cells = table.integer("cells");
+    if (table.has("level")) table.fail("level", "cannot stand beside cells");
+    if (std::ranges::count(study.ladder.cells, spec.cells) == 0)
+      table.fail("cells", "is no level of the [ladder]");
+    return;
+  }
+  spec.level = table.text("level", "finest");
+  if (spec.level != "finest" && spec.level != "coarsest" && spec.level != "all")
+    table.fail("level", "must be \"finest\", \"coarsest\" or \"all\"");
+}
+
+void read_against(TomlTable& table, const Study& study, CheckSpec& spec) {
+  spec.against = table.text("against");
+  if (std::ranges::count(study.variants, spec.against) == 0)
+    table.fail("against", "'" + spec.against + "' is no variant of this study");
+  std::erase(spec.variants, spec.against);
+  if (spec.variants.empty()) table.fail("against", "leaves no variant to compare");
+}
+
+std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& data,
+                                      const std::string& variant) {
+  auto runs = data.runs_of(variant);
+  if (spec.cells > 0)
+    std::erase_if(runs, [&](const RunData* run) { return run->record.cells != spec.cells; });
+  if (spec.level == "finest") return {runs.back()};
+  if (spec.level == "coarsest") return {runs.front()};
+  return runs;
+}
+
+/// "variant: n20" where a check speaks of several levels.
+std::string label(const CheckSpec& spec, const RunData& run) {
+  if ((spec.level != "all" && spec.cells == 0) || run.record.run.size() <= run.record.study.size())
+    return label(run.plan->variant);
+  return run.record.run.substr(run.record.study.size() + 1) + ": ";
+}
+
+}  // namespace verification

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "verification/study/run_data.hpp"
+
+namespace verification {
+
+// Keys that several kinds of checks read, and how they choose runs.
+
+/// An upper bound must be given; the lower one is `lower` if absent.
+void require_upper(TomlTable& table, CheckSpec& spec, double lower);
+/// Both bounds must be given.
+void require_band(TomlTable& table);
+void read_locations(TomlTable& table, CheckSpec& spec);
+void read_norm(TomlTable& table, CheckSpec& spec);
+/// `times`, each an output time of every run spoken of; all of them if absent.
+void read_times(TomlTable& table, const Study& study, CheckSpec& spec);
+/// `level` = "finest", "coarsest" or "all", or `cells` = a resolution of the ladder.
+void read_level(TomlTable& table, const Study& study, CheckSpec& spec);
+/// `against`: another variant.
+void read_against(TomlTable& table, const Study& study, CheckSpec& spec);
+
+/// Runs of a variant at the level chosen.
+std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& data,
+                                      const std::string& variant);
+/// "variant: ", or "" where the study has none.
+std::string label(const std::string& variant);
+/// "variant.n20: " where a check speaks of several levels or of one by its cells.
+std::string label(const CheckSpec& spec, const RunData& run);
+
+/// Adds the kinds that compare scalars: scalar, ordering, ratio, crossing (checks/quantity_checks.cpp).
+void add_quantity_kinds(std::vector<struct CheckKind>& kinds);
+
+}  // namespace verification
