@@ -71,10 +71,12 @@ Figure history_figure(const std::filesystem::path& dir, const FigureRecord& reco
   }
   Figure figure;
   if (script.empty()) return figure;
-  if (any_exact) script.legend_line(one_line ? "#000000" : "#555555", "exact", 1.3);
+  if (any_exact) script.legend_line(one_line ? "#000000" : "#555555", solution_name(runs), 1.3);
   figure.script = script.text(record.figure);
-  figure.caption = any_exact ? "Lines: exact solution. Marks: MPM, about 40 of its recorded times."
-                             : "Marks: MPM, about 40 of its recorded times; no exact solution is known.";
+  figure.caption =
+      any_exact ? fmt::format("Lines: {} solution. Marks: MPM, about 40 of its recorded times.",
+                              solution_name(runs))
+                : std::string("Marks: MPM, about 40 of its recorded times; no exact solution is known.");
   return figure;
 }
 

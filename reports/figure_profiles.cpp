@@ -165,11 +165,13 @@ Figure profiles_figure(const std::filesystem::path& dir, const FigureRecord& rec
                          (by_time ? "MPM" : runs[r].label) + ", " + where);
     }
   }
-  if (any_exact) script.legend_line(one_line ? "#000000" : "#555555", "exact", 1.3);
+  if (any_exact) script.legend_line(one_line ? "#000000" : "#555555", solution_name(runs), 1.3);
   figure.script = script.text(record.figure);
-  figure.caption = any_exact
-                       ? "Lines: exact solution. Marks: MPM, one column of points, thinned where dense."
-                       : "Marks: MPM, one column of points, thinned where dense; no exact solution is known.";
+  figure.caption =
+      any_exact
+          ? fmt::format("Lines: {} solution. Marks: MPM, one column of points, thinned where dense.",
+                        solution_name(runs))
+          : std::string("Marks: MPM, one column of points, thinned where dense; no exact solution is known.");
   if (!by_time) {
     figure.caption += " Times:";
     for (const double t : times) figure.caption += fmt::format(" {:.4g}", t);

@@ -70,7 +70,10 @@ void FigureScript::y_range(double lower, double upper) {
 std::string FigureScript::add_data(const Curve& curve) {
   std::string block;
   for (const auto& [x, y] : curve) {
-    if (!std::isfinite(x) || !std::isfinite(y) || (log_x_ && x <= 0) || (log_y_ && y <= 0)) continue;
+    if (!std::isfinite(x) || !std::isfinite(y) || (log_x_ && x <= 0) || (log_y_ && y <= 0)) {
+      if (!block.empty()) block += "\n";  // a gap in a line, so that it does not bridge what is not there
+      continue;
+    }
     fmt::format_to(std::back_inserter(block), "{:.7g} {:.7g}\n", x, y);
   }
   if (block.empty()) return "";

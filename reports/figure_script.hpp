@@ -27,7 +27,7 @@ std::string wrap(const std::string& text, std::size_t width);
 Curve thinned(const Curve& curve, std::size_t count);
 
 /// A gnuplot script with its data inline that draws one diagram as SVG and as PNG. Points that are not finite
-/// (or not positive on a logarithmic axis) are left out. Text is taken literally.
+/// (or not positive on a logarithmic axis) are left out, and break a line. Text is taken literally.
 class FigureScript {
  public:
   FigureScript(std::string title, std::string x_label, std::string y_label);

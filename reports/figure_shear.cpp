@@ -34,7 +34,7 @@ Figure shear_figure(const std::filesystem::path& dir, const FigureRecord& record
   }
   Figure figure;
   if (script.empty()) return figure;
-  if (any_exact) script.legend_line("#555555", "reference", 1.3);
+  if (any_exact) script.legend_line("#555555", solution_name(runs), 1.3);
   figure.script = script.text(record.figure);
   figure.caption =
       fmt::format("t = {:.4g} s. Lines: reference solution. Marks: MPM at cell centres.", record.t);

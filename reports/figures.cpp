@@ -47,6 +47,12 @@ std::vector<LabelledRun> runs_of(const FigureRecord& record, const Results& resu
   return chosen;
 }
 
+std::string solution_name(const std::vector<LabelledRun>& runs) {
+  const bool newtonian = std::all_of(runs.begin(), runs.end(),
+                                     [](const LabelledRun& run) { return run.run->fluid == "newtonian"; });
+  return newtonian ? "exact" : "reference";
+}
+
 std::vector<std::string> locations_of(const FigureRecord& record) {
   const std::vector<std::string> named = split_list(record.location);
   return named.empty() ? std::vector<std::string>{"grid", "particles"} : named;

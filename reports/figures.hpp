@@ -41,6 +41,9 @@ struct LabelledRun {
   const RunRecord* run;
   std::string label;
 };
+/// What the lines are: "exact" where every fluid is Newtonian, else "reference" (computed, to a stated
+/// error).
+std::string solution_name(const std::vector<LabelledRun>& runs);
 std::vector<LabelledRun> runs_of(const FigureRecord& record, const Results& results);
 
 /// Locations asked for; "grid" and "particles" if none is named.

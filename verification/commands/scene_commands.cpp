@@ -100,6 +100,8 @@ int reference_command(const SceneOptions& options) {
   reports::ensure_directory(options.out / "profiles");
   reports::write_provenance(options.out, provenance_of(options.command_line));
   reports::write_profile(options.out, study.name, exact_lines(scene, *exact));
+  if (const auto shear = exact_shear(scene, *exact); !shear.empty())
+    reports::write_shear(options.out, study.name, shear);
   fmt::print("{}: {}\n", study.name, exact->description());
   fmt::print("profiles at {} times: {}\n", scene.outputs.size(),
              (options.out / "profiles" / (study.name + ".csv")).string());

@@ -100,8 +100,6 @@ std::vector<reports::ProfileRow> exact_lines(const SceneConfig& scene, const Exa
   return rows;
 }
 
-namespace {
-
 std::vector<reports::ShearRow> exact_shear(const SceneConfig& scene, const ExactField& exact) {
   std::vector<reports::ShearRow> rows;
   for (const double t : scene.outputs)
@@ -110,8 +108,6 @@ std::vector<reports::ShearRow> exact_shear(const SceneConfig& scene, const Exact
         rows.push_back({t, "exact", x[scene.flow->across()], *rate, scene.fluid.viscosity_ratio(*rate)});
   return rows;
 }
-
-}  // namespace
 
 std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneConfig& scene) {
   switch (study.comparison) {

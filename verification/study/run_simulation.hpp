@@ -11,6 +11,9 @@ RunData run_simulation(const Study& study, const PlannedRun& plan);
 /// What the study compares a scene with; null where nothing is known.
 std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneConfig& scene);
 
+/// Shear rate and viscosity of the exact solution on the same points; empty but for channels.
+std::vector<reports::ShearRow> exact_shear(const SceneConfig& scene, const ExactField& exact);
+
 /// Fine exact lines at the output times, for figures and for `reference`.
 std::vector<reports::ProfileRow> exact_lines(const SceneConfig& scene, const ExactField& exact);
 
