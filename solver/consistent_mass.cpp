@@ -10,6 +10,8 @@ namespace {
 // where the matrix may be singular and the remaining error belongs to functions that no particle sees.
 constexpr double tolerance = 1e-15;
 constexpr int most_iterations = 200;
+// Pivots of regular strips stay above 1e-3; fewer particles than functions leave some at round-off.
+constexpr double least_pivot = 1e-10;
 
 }  // namespace
 
@@ -42,7 +44,10 @@ void ConsistentMass::constrain() {
     if (diagonal[i] <= negligible_mass * largest_) is_fixed_[static_cast<std::size_t>(i)] = 1;
   constrained_ = matrix_;
   decouple(constrained_, is_fixed_, largest_);
-  if (strip_) direct_.factorize(constrained_);
+  if (!strip_) return;
+  direct_.factorize(constrained_);
+  direct_holds_ = direct_.info() == Eigen::Success &&
+                  direct_.vectorD().minCoeff() > least_pivot * direct_.vectorD().maxCoeff();
 }
 
 void ConsistentMass::solve_from(VectorField& guess, VectorField& field) const {
@@ -56,7 +61,7 @@ void ConsistentMass::solve_from(VectorField& guess, VectorField& field) const {
   for (std::size_t i = 0; i < field.size(); ++i)
     if (is_fixed_[i]) field[i] = largest_ * fixed[i];
   const Eigen::MatrixX2d right_side = rows;
-  if (strip_) {
+  if (direct_holds_) {
     rows = direct_.solve(right_side);
   } else {
     Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> iteration;

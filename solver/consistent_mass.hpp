@@ -47,7 +47,7 @@ class ConsistentMass {
   /// Solves for the nodes that are not fixed; walls take their values from the guess.
   void solve_from(VectorField& guess, VectorField& field) const;
 
-  bool strip_;
+  bool strip_, direct_holds_ = false;
   std::vector<char> is_wall_, is_fixed_;  // fixed: on a wall or without mass
   SparseMatrix matrix_, constrained_;
   double largest_ = 0;  // diagonal entry

@@ -122,7 +122,7 @@ class Solver final : public Simulation {
     impulse_ += dt * (body_force_ + mass_.wall_force(grid_, walls_));
     set_velocity(start_velocity_, dt);
     grid_to_particles(dt);
-    drift_on(dt / 2);
+    close_drift(t + dt, dt / 2);
   }
 
   /// Viscosity by backward Euler, pressure as in USF: bounded by sound alone.
@@ -163,7 +163,7 @@ class Solver final : public Simulation {
     impulse_ += body_impulse + wall_impulse;
     accelerate_between(start_velocity_, dt);
     grid_to_particles(dt);
-    drift_on(dt / 2);
+    close_drift(t + dt, dt / 2);
   }
 
   /// Brings the walls' velocity at t = 0 into the particles. Projections that hand particles the grid's
@@ -243,7 +243,27 @@ class Solver final : public Simulation {
     (*update_stress_)(particles_, grid_, grid_.velocity, 0);
     forces(t);
     solve_acceleration([&](VectorField& a) { walls_.impose_mean_acceleration(a, t, dt / 2); });
+    if constexpr (Transfer::keeps_velocity) {
+      remap(grid_.acceleration);
+      walls_.impose_mean_acceleration(grid_.acceleration, t, dt / 2);
+    }
     set_velocity(start_velocity_, dt / 2);
+  }
+
+  /// What the grid sees of a nodal increment once particles have added it to their own velocity: with lumped
+  /// mass P2G after G2P is a smoothing, and a stage that left it out would be first order in time.
+  void remap(VectorField& field) {
+    VectorField& sum = grid_.mapped;
+    std::fill(sum.begin(), sum.end(), Vec2::Zero());
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      const Stencil<Basis> stencil(grid_, particles_.position[p]);
+      Vec2 share = Vec2::Zero();
+      stencil.values([&](std::size_t i, double n) { share += n * field[i]; });
+      share *= particles_.mass[p];
+      stencil.values([&](std::size_t i, double n) { sum[i] += n * share; });
+    }
+    mass_.solve(grid_, sum, [](VectorField&) {});
+    field.swap(sum);
   }
 
   void set_velocity(const VectorField& start, double dt) {
@@ -281,6 +301,12 @@ class Solver final : public Simulation {
   void drift_on(double dt) {
     update_stress_->compress(particles_, grid_, grid_.velocity, dt);
     move_particles(dt);
+  }
+
+  /// The second half of a drift, with the velocity that the particles have at the end of the step.
+  void close_drift(double t, double dt) {
+    if constexpr (Transfer::keeps_velocity) map_velocity(t, grid_, grid_.velocity, mass_, table_);
+    drift_on(dt);
   }
 
   /// Particles follow the interpolated grid velocity (the paper's Eq. 20 uses their own); x in periodic

@@ -14,7 +14,7 @@ SparseMatrix pair_pattern(const Grid& grid, int components);
 
 /// A function whose diagonal entry of a mass matrix is below this fraction of the largest holds at most the
 /// corner of one particle: its value would be a quotient of two near zeros, so it is left out.
-inline constexpr double negligible_mass = 1e-8;
+inline constexpr double negligible_mass = 1e-6;
 
 /// Makes a symmetric matrix leave the marked unknowns alone: their rows and columns become `diagonal` times
 /// those of the identity.
