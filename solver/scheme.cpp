@@ -91,7 +91,11 @@ FormalOrder formal_order(const Scheme& scheme) {
     order.remap_space = 2;
   if (scheme.transfer == Transfer::Apic && degree > 1) order.remap_space = 4;
   using Stepping = Scheme::Stepping;
-  if (scheme.stepping == Stepping::Leapfrog || scheme.stepping == Stepping::ImplicitSdirk2) order.time = 2;
+  // What particles keep of their own velocity the grid sees smoothed. The leapfrog's stage maps back and sees
+  // it too; the implicit stages do not, which costs O(h^2 dt).
+  const bool keeps = scheme.transfer == Transfer::Flip || scheme.transfer == Transfer::FlipBlend;
+  if (scheme.stepping == Stepping::Leapfrog || (scheme.stepping == Stepping::ImplicitSdirk2 && !keeps))
+    order.time = 2;
   return order;
 }
 

@@ -43,7 +43,9 @@ Scheme::Stepping stepping_named(const std::string& text);
 /// rows.
 struct FormalOrder {
   double space;  ///< of the grid field at a step that makes the time error negligible
-  double time;   ///< of the difference of successive dt on one mesh
+  /// Of the difference of successive dt on one mesh. In flows that mix particles, lumped FLIP drifts with a
+  /// smoothed velocity, which leaves an error O(h^2 dt) beside this.
+  double time;
   /// Remapping loses energy at a rate ~ h^remap_space/dt: below some dt the error *grows* as dt shrinks, and
   /// `space` and `time` hold only above it. 0: no such loss.
   double remap_space;
