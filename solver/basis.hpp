@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "solver/grid.hpp"
+#include "solver/axis.hpp"
 
 namespace mpm {
 
@@ -14,67 +14,60 @@ struct Weights {
   std::array<double, support> slope;  ///< dN_k/dx [1/m]
 };
 
-/// Hat functions: in 2D the bilinear 4-node element of the paper (after Eq. 10).
-struct LinearBasis {
-  static constexpr int degree = 1;
-  static constexpr int support = 2;
+/// B-splines of polynomial degree 1 to 3 in both directions: from the table of the cell's polynomials, the
+/// same few operations in every cell, at walls as elsewhere.
+template <int polynomial_degree>
+struct BSpline {
+  static constexpr int degree = polynomial_degree;
+  static constexpr int support = degree + 1;
+  using X = BSpline;  ///< functions along x
+  using Y = BSpline;  ///< functions along y
 
   static Weights<support> at(const Axis& axis, double x) {
     const int cell = axis.cell_of(x);
     const double s = x * axis.inverse_h - cell;
-    return {cell, {1 - s, s}, {-axis.inverse_h, axis.inverse_h}};
+    Weights<support> w;
+    w.first = cell;
+    if constexpr (degree == 1) {  // hat functions: the bilinear 4-node element of the paper (after Eq. 10)
+      w.value = {1 - s, s};
+      w.slope = {-axis.inverse_h, axis.inverse_h};
+    } else {
+      const double* c = axis.polynomials(cell);
+      for (int k = 0; k < support; ++k) {
+        double value = c[degree * support + k], slope = 0;
+        for (int m = degree - 1; m >= 0; --m) {
+          slope = slope * s + value;
+          value = value * s + c[m * support + k];
+        }
+        w.value[k] = value;
+        w.slope[k] = slope * axis.inverse_h;
+      }
+    }
+    return w;
   }
+
+  /// Control point of the k-th function along the axis, seen from x [m].
+  static double offset(const Axis& axis, int k, double x) { return axis.control_point(k) - x; }
 };
 
-/// The nodes around one point, with N_i and grad N_i: the tensor product of two one-dimensional bases.
-template <class Basis>
-class Stencil {
- public:
-  Stencil(const Grid& grid, const Vec2& point)
-      : grid_(grid), wx_(Basis::at(grid.x, point.x())), wy_(Basis::at(grid.y, point.y())) {}
-
-  /// visit(node i, N_i)
-  template <class Visit>
-  void values(Visit&& visit) const {
-    for (int l = 0; l < Basis::support; ++l) {
-      const int row = grid_.y.function(wy_.first + l) * grid_.x.count();
-      for (int k = 0; k < Basis::support; ++k)
-        visit(static_cast<std::size_t>(row + grid_.x.function(wx_.first + k)), wx_.value[k] * wy_.value[l]);
-    }
-  }
-
-  /// visit(node i, grad N_i)
-  template <class Visit>
-  void gradients(Visit&& visit) const {
-    for (int l = 0; l < Basis::support; ++l) {
-      const int row = grid_.y.function(wy_.first + l) * grid_.x.count();
-      for (int k = 0; k < Basis::support; ++k)
-        visit(static_cast<std::size_t>(row + grid_.x.function(wx_.first + k)),
-              Vec2(wx_.slope[k] * wy_.value[l], wx_.value[k] * wy_.slope[l]));
-    }
-  }
-
- private:
-  const Grid& grid_;
-  Weights<Basis::support> wx_, wy_;
+/// The one function of a direction in which nothing varies: constant.
+struct Constant {
+  static constexpr int support = 1;
+  static Weights<1> at(const Axis&, double) { return {0, {1}, {0}}; }
+  static double offset(const Axis&, int, double) { return 0; }
 };
 
-/// Value of a nodal field at a point.
-template <class Basis>
-Vec2 interpolate(const Grid& grid, const VectorField& field, const Vec2& point) {
-  Vec2 sum = Vec2::Zero();
-  Stencil<Basis>(grid, point).values([&](std::size_t i, double n) { sum += n * field[i]; });
-  return sum;
-}
+/// For scenes that do not vary along x, one periodic cell wide: all images of a B-spline along x share one
+/// nodal value, and sum to one. A quarter to a half of the work of BSpline there, the same answer.
+template <int polynomial_degree>
+struct StripBSpline {
+  static constexpr int degree = polynomial_degree;
+  using X = Constant;
+  using Y = BSpline<degree>;
+};
 
-/// Gradient L_ab = d v_a / d x_b of a nodal field at a point.
-template <class Basis>
-Mat2 gradient(const Grid& grid, const VectorField& field, const Vec2& point) {
-  Mat2 sum = Mat2::Zero();
-  Stencil<Basis>(grid, point).gradients([&](std::size_t i, const Vec2& dn) {
-    sum += field[i] * dn.transpose();
-  });
-  return sum;
-}
+using LinearBasis = BSpline<1>;
+using QuadraticBasis = BSpline<2>;
+using CubicBasis = BSpline<3>;
 
 }  // namespace mpm

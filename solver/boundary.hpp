@@ -2,74 +2,78 @@
 
 #include <vector>
 
-#include "solver/basis.hpp"
 #include "solver/grid.hpp"
-#include "solver/particles.hpp"
 #include "solver/scene.hpp"
 
 namespace mpm {
 
-/// The nodes that lie on walls. Where two walls meet the node belongs to the bottom or top wall.
+/// The nodes whose functions do not vanish on a wall: the first and the last along a direction with walls,
+/// for every basis here. Their values are the field's values on the wall, so the wall prescribes them. Where
+/// two walls meet the node belongs to the bottom or top wall.
 class WallNodes {
  public:
-  WallNodes(const Scene& scene, const Grid& grid) : scene_(scene) {
+  WallNodes(const Scene& scene, const Grid& grid) : scene_(scene), is_wall_(grid.size(), 0) {
     const int nx = grid.x.count(), ny = grid.y.count();
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i) {
         const auto node = static_cast<std::size_t>(j * nx + i);
         if (!grid.y.periodic && (j == 0 || j == ny - 1))
-          nodes_.push_back({node, j == 0 ? Edge::Bottom : Edge::Top, i, j});
+          nodes_.push_back({node, j == 0 ? Edge::Bottom : Edge::Top});
         else if (!grid.x.periodic && (i == 0 || i == nx - 1))
-          nodes_.push_back({node, i == 0 ? Edge::Left : Edge::Right, i, j});
+          nodes_.push_back({node, i == 0 ? Edge::Left : Edge::Right});
       }
     }
+    for (const Node& n : nodes_) is_wall_[n.index] = 1;
   }
+
+  [[nodiscard]] bool is_wall(std::size_t node) const { return is_wall_[node] != 0; }
 
   /// Sets the wall's velocity at time t on its nodes.
   void impose_velocity(VectorField& velocity, double t) const {
     for (const Node& n : nodes_) velocity[n.index] = scene_.side(n.edge).velocity(t);
   }
 
-  /// Gives the nodes the wall's prescribed acceleration dV/dt (not the difference to the mapped velocity,
-  /// which drops the particles to order 1.5) and returns the force that the walls exert on the fluid per unit
-  /// depth [N/m].
-  Vec2 impose_acceleration(Grid& grid, double t) const {
-    Vec2 reaction = Vec2::Zero();
-    for (const Node& n : nodes_) {
-      grid.acceleration[n.index] = scene_.side(n.edge).acceleration(t);
-      reaction += grid.mass[n.index] * grid.acceleration[n.index] - grid.force[n.index];
-    }
-    return reaction;
+  /// Sets the wall's prescribed acceleration dV/dt on its nodes (not the difference to the mapped velocity,
+  /// which drops the particles to order 1.5).
+  void impose_acceleration(VectorField& acceleration, double t) const {
+    for (const Node& n : nodes_) acceleration[n.index] = scene_.side(n.edge).acceleration(t);
   }
 
-  /// An impulsive start: wall nodes jump from the initial field to the wall's velocity at t = 0, and the
-  /// particles take their share of that jump, as FLIP hands them every later change of a node.
-  template <class Basis>
-  void start_impulsively(const Grid& grid, Particles& particles) const {
-    if (nodes_.empty()) return;
+  /// Sets the wall's mean acceleration (V(t + dt) - V(t))/dt, which brings its nodes to V(t + dt) exactly.
+  void impose_mean_acceleration(VectorField& acceleration, double t, double dt) const {
+    for (const Node& n : nodes_) {
+      const Side& side = scene_.side(n.edge);
+      acceleration[n.index] = (side.velocity(t + dt) - side.velocity(t)) / dt;
+    }
+  }
+
+  /// Force that the walls exert on the fluid per unit depth [N/m] when nodes with lumped mass are given an
+  /// acceleration that the other forces do not explain.
+  [[nodiscard]] Vec2 reaction(const Grid& grid) const {
+    Vec2 sum = Vec2::Zero();
+    for (const Node& n : nodes_) sum += grid.mass[n.index] * grid.acceleration[n.index] - grid.force[n.index];
+    return sum;
+  }
+
+  /// An impulsive start: by how much wall nodes jump from the initial field to the wall's velocity at t = 0.
+  [[nodiscard]] VectorField initial_jump(const Grid& grid) const {
     VectorField jump(grid.size(), Vec2::Zero());
     for (const Node& n : nodes_) {
-      const Vec2 point(n.i == 0                                        ? 0
-                       : n.i == grid.x.count() - 1 && !grid.x.periodic ? grid.x.length
-                                                                       : n.i * grid.x.h,
-                       n.j == 0                                        ? 0
-                       : n.j == grid.y.count() - 1 && !grid.y.periodic ? grid.y.length
-                                                                       : n.j * grid.y.h);
-      const Vec2 fluid = scene_.initial_velocity ? scene_.initial_velocity(point) : Vec2(Vec2::Zero());
+      const Vec2 fluid =
+          scene_.initial_velocity ? scene_.initial_velocity(grid.control_point(n.index)) : Vec2(Vec2::Zero());
       jump[n.index] = scene_.side(n.edge).velocity(0) - fluid;
     }
-    for (std::size_t p = 0; p < particles.size(); ++p)
-      particles.velocity[p] += interpolate<Basis>(grid, jump, particles.position[p]);
+    return jump;
   }
 
  private:
   struct Node {
     std::size_t index;
     Edge edge;
-    int i, j;
   };
   const Scene& scene_;
   std::vector<Node> nodes_;
+  std::vector<char> is_wall_;
 };
 
 }  // namespace mpm

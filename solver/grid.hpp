@@ -1,54 +1,12 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
+#include "solver/axis.hpp"
 #include "solver/linear_algebra.hpp"
 #include "solver/scene.hpp"
 
 namespace mpm {
-
-/// One direction of the background grid for basis functions of a given polynomial degree: `cells` cells of
-/// size h. A periodic direction has as many functions as cells; between walls there are cells + degree (open
-/// knots).
-class Axis {
- public:
-  Axis(double length, int cells, bool periodic, int degree)
-      : length(length), h(length / cells), inverse_h(cells / length), cells(cells), periodic(periodic) {
-    const int functions = periodic ? cells : cells + degree;
-    for (int k = 0; k < cells + degree; ++k) function_.push_back(periodic ? k % cells : k);
-    count_ = functions;
-  }
-
-  [[nodiscard]] int count() const { return count_; }
-  /// Number of the k-th function counted along the axis, 0 <= k < cells + degree: periodic images share one.
-  [[nodiscard]] int function(int k) const { return function_[static_cast<std::size_t>(k)]; }
-  /// The cell that holds coordinate x; a point on the far end belongs to the last cell.
-  [[nodiscard]] int cell_of(double x) const {
-    return std::clamp(static_cast<int>(x * inverse_h), 0, cells - 1);
-  }
-
-  /// Cell corners along the axis, each once.
-  [[nodiscard]] int corners() const { return periodic ? cells : cells + 1; }
-  [[nodiscard]] double corner(int i) const { return i == cells ? length : i * h; }
-
-  /// Brings a coordinate back into a periodic direction; false when it lies outside or is not finite.
-  bool contain(double& x) const {
-    if (x >= 0 && x <= length) return true;
-    if (!periodic || !std::isfinite(x)) return false;
-    x -= length * std::floor(x / length);
-    return x >= 0 && x <= length;
-  }
-
-  double length, h, inverse_h;
-  int cells;
-  bool periodic;
-
- private:
-  std::vector<int> function_;
-  int count_ = 0;
-};
 
 /// Nodal fields on the background grid. Index of a node: j * x.count() + i.
 struct Grid {
@@ -64,6 +22,12 @@ struct Grid {
   }
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }
+  /// Where a linear field is sampled for its control value at a node: the node itself for the linear basis
+  /// [m].
+  [[nodiscard]] Vec2 control_point(std::size_t node) const {
+    const int i = static_cast<int>(node) % x.count(), j = static_cast<int>(node) / x.count();
+    return {x.control_point(i), y.control_point(j)};
+  }
 
   Axis x, y;
   ScalarField mass;          ///< m_i [kg/m]

@@ -11,6 +11,7 @@ struct Particles {
   ScalarField mass;          ///< m_p [kg/m], constant
   ScalarField density;       ///< rho_p [kg/m3]
   std::vector<Mat2> stress;  ///< Cauchy stress sigma_p [Pa]
+  std::vector<Mat2> affine;  ///< C_p, velocity gradient that APIC particles carry [1/s]; empty for others
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 };

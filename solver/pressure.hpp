@@ -4,6 +4,7 @@ namespace mpm {
 
 /// Tait equation of state P = K[(rho/rho0)^7 - 1] (paper Eq. 23) with density following the dilatation.
 struct TaitPressure {
+  static constexpr bool varies = true;
   double bulk_modulus;               ///< K [Pa]
   double inverse_reference_density;  ///< 1/rho0 [m3/kg]
 
@@ -20,6 +21,7 @@ struct TaitPressure {
 
 /// For scenes declared divergence-free: no pressure, constant density.
 struct NoPressure {
+  static constexpr bool varies = false;
   [[nodiscard]] double advance_density(double density, double, double) const { return density; }
   [[nodiscard]] double pressure(double) const { return 0; }
 };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <utility>
 
 namespace mpm {
 namespace {
@@ -16,51 +14,16 @@ bool positive(double value) {
   return std::isfinite(value) && value > 0;
 }
 
-// One table a part of the scheme, read in both directions.
-template <class Enum>
-using Names = std::span<const std::pair<Enum, const char*>>;
-
-constexpr std::pair<Scheme::Basis, const char*> basis_names[] = {{Scheme::Basis::Linear, "linear"}};
-constexpr std::pair<Scheme::Transfer, const char*> transfer_names[] = {{Scheme::Transfer::Flip, "flip"}};
-constexpr std::pair<Scheme::Stepping, const char*> stepping_names[] = {
-    {Scheme::Stepping::Usf, "usf"}, {Scheme::Stepping::Usl, "usl"}, {Scheme::Stepping::Musl, "musl"}};
-
-template <class Enum>
-std::string name_in(Names<Enum> names, Enum value) {
-  for (const auto& [key, text] : names)
-    if (key == value) return text;
-  throw SceneError("a scheme's part has no name");
-}
-
-template <class Enum>
-Enum value_in(Names<Enum> names, const std::string& text) {
-  std::string known;
-  for (const auto& [key, known_text] : names) {
-    if (text == known_text) return key;
-    known += (known.empty() ? "" : ", ") + std::string(known_text);
-  }
-  throw SceneError("'" + text + "' is not known; choose one of: " + known);
-}
-
 }  // namespace
 
-std::string name(Scheme::Basis basis) {
-  return name_in(Names<Scheme::Basis>(basis_names), basis);
+std::string name(Seeding::Rule rule) {
+  return rule == Seeding::Rule::Even ? "even" : "gauss";
 }
-std::string name(Scheme::Transfer transfer) {
-  return name_in(Names<Scheme::Transfer>(transfer_names), transfer);
-}
-std::string name(Scheme::Stepping stepping) {
-  return name_in(Names<Scheme::Stepping>(stepping_names), stepping);
-}
-Scheme::Basis basis_named(const std::string& text) {
-  return value_in(Names<Scheme::Basis>(basis_names), text);
-}
-Scheme::Transfer transfer_named(const std::string& text) {
-  return value_in(Names<Scheme::Transfer>(transfer_names), text);
-}
-Scheme::Stepping stepping_named(const std::string& text) {
-  return value_in(Names<Scheme::Stepping>(stepping_names), text);
+
+Seeding::Rule seeding_named(const std::string& text) {
+  for (const Seeding::Rule rule : {Seeding::Rule::Even, Seeding::Rule::Gauss})
+    if (name(rule) == text) return rule;
+  throw SceneError("'" + text + "' is not known; choose one of: even, gauss");
 }
 
 Side Side::wall(const Vec2& v) {
@@ -89,6 +52,7 @@ void Scene::validate() const {
     require(sides[2 * a].periodic == sides[2 * a + 1].periodic,
             "sides that face each other along " + along + " must both be periodic or both be walls");
   }
+  require(seeding.displacement >= 0 && seeding.displacement <= 0.5, "the displacement must lie in [0, 0.5]");
   for (const Side& s : sides)
     require(s.periodic || (s.velocity && s.acceleration), "a wall needs a velocity and an acceleration");
   require(positive(fluid.density), "the density must be positive and finite");

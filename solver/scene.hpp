@@ -7,6 +7,7 @@
 
 #include "solver/linear_algebra.hpp"
 #include "solver/rheology.hpp"
+#include "solver/scheme.hpp"
 
 namespace mpm {
 
@@ -43,12 +44,29 @@ struct Fluid {
   [[nodiscard]] double largest_kinematic_viscosity() const;
 };
 
+/// Where material points lie in a cell, and what mass each has.
+struct Seeding {
+  /// Even: at (i + 1/2)/n along an axis, equal masses. Gauss: at the Gauss-Legendre points, masses in
+  /// proportion to their weights, so that sums over particles integrate polynomials of degree 2n - 1 exactly.
+  enum class Rule { Even, Gauss };
+  std::array<Rule, 2> rule{Rule::Even, Rule::Even};  ///< along x, y
+  /// Every particle is moved along both axes by a random part of this fraction of the mean spacing, uniform
+  /// and to either side; it is put back by reflection where that crosses a wall. 0: none.
+  double displacement = 0;
+  unsigned seed = 1;  ///< of the random numbers; the same on every machine
+};
+
+/// Name of a rule ("even", "gauss") and back (throws SceneError listing the known names).
+std::string name(Seeding::Rule rule);
+Seeding::Rule seeding_named(const std::string& text);
+
 /// What is simulated: the rectangle [0, size.x] x [0, size.y] full of fluid. SI units.
 struct Scene {
   Vec2 size{1, 1};                              ///< [m]
   std::array<int, 2> cells{1, 1};               ///< background cells along x, y
-  std::array<int, 2> particles_per_cell{2, 2};  ///< material points a cell along x, y, evenly spaced
-  std::array<Side, 4> sides;                    ///< indexed by Edge
+  std::array<int, 2> particles_per_cell{2, 2};  ///< material points a cell along x, y
+  Seeding seeding;
+  std::array<Side, 4> sides;  ///< indexed by Edge
   Fluid fluid;
   std::function<Vec2(double)> body_acceleration;      ///< uniform, at time t [m/s2]; none when empty
   std::function<Vec2(const Vec2&)> initial_velocity;  ///< [m/s]; at rest when empty
@@ -64,23 +82,5 @@ struct Scene {
   /// Throws SceneError when the scene cannot be simulated.
   void validate() const;
 };
-
-/// How it is simulated. Names are those of the literature and of the TOML files.
-struct Scheme {
-  enum class Basis { Linear };
-  enum class Transfer { Flip };
-  enum class Stepping { Usf, Usl, Musl };
-  Basis basis = Basis::Linear;
-  Transfer transfer = Transfer::Flip;
-  Stepping stepping = Stepping::Usf;
-};
-
-/// Name of a scheme's part, e.g. "linear"; and back (throws SceneError listing the known names).
-std::string name(Scheme::Basis basis);
-std::string name(Scheme::Transfer transfer);
-std::string name(Scheme::Stepping stepping);
-Scheme::Basis basis_named(const std::string& text);
-Scheme::Transfer transfer_named(const std::string& text);
-Scheme::Stepping stepping_named(const std::string& text);
 
 }  // namespace mpm

@@ -1,13 +1,23 @@
 #pragma once
 
+#include <vector>
+
 #include "solver/particles.hpp"
 #include "solver/scene.hpp"
 
 namespace mpm {
 
-/// Particles evenly spaced in every cell ((i + 1/2)/n of the cell along each direction), at reference density
-/// and with the scene's initial velocity. Row by row from the bottom, left to right: the order fixes every
-/// sum.
+/// Points of a quadrature rule in a cell [0, 1] and their weights, which sum to one.
+struct CellPoints {
+  std::vector<double> position, weight;
+};
+
+/// n points of a seeding rule, n >= 1. Gauss-Legendre points by Newton's method on the Legendre polynomial
+/// (Abramowitz and Stegun 25.4.30).
+CellPoints cell_points(Seeding::Rule rule, int n);
+
+/// Particles in every cell by the scene's seeding, at reference density and with the scene's initial
+/// velocity. Row by row from the bottom, left to right: the order fixes every sum.
 Particles seed_particles(const Scene& scene);
 
 }  // namespace mpm

@@ -1,20 +1,47 @@
 #include "solver/simulation.hpp"
 
-#include "solver/solver.hpp"
+#include "solver/axis.hpp"
+#include "solver/make_solver.hpp"
 
 namespace mpm {
 
-VectorField cell_corners(const Scene& scene) {
-  const Grid grid(scene, LinearBasis::degree);
+namespace {
+
+/// Corners of cells cut into `parts` along each direction.
+VectorField lattice(const Scene& scene, std::array<int, 2> parts) {
+  const Axis x(scene.size.x(), scene.cells[0] * parts[0], scene.periodic(0), 1);
+  const Axis y(scene.size.y(), scene.cells[1] * parts[1], scene.periodic(1), 1);
   VectorField corners;
-  for (int j = 0; j < grid.y.corners(); ++j)
-    for (int i = 0; i < grid.x.corners(); ++i) corners.emplace_back(grid.x.corner(i), grid.y.corner(j));
+  for (int j = 0; j < y.corners(); ++j)
+    for (int i = 0; i < x.corners(); ++i) corners.emplace_back(x.corner(i), y.corner(j));
   return corners;
+}
+
+}  // namespace
+
+VectorField cell_corners(const Scene& scene) {
+  return lattice(scene, {1, 1});
+}
+
+VectorField sample_points(const Scene& scene, const Scheme& scheme) {
+  const auto parts = [&](std::size_t axis) {
+    return scheme.basis == Scheme::Basis::Linear || scene.cells[axis] == 1 ? 1 : 4;
+  };
+  return lattice(scene, {parts(0), parts(1)});
 }
 
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme) {
   scene.validate();
-  return std::make_unique<Solver<LinearBasis, Flip>>(scene, scheme.stepping);
+  scheme.validate();
+  switch (scheme.basis) {
+    case Scheme::Basis::Linear:
+      return make_linear_solver(scene, scheme);
+    case Scheme::Basis::Quadratic:
+      return make_quadratic_solver(scene, scheme);
+    case Scheme::Basis::Cubic:
+      return make_cubic_solver(scene, scheme);
+  }
+  throw SceneError("a basis has no solver");
 }
 
 }  // namespace mpm

@@ -45,6 +45,12 @@ class Simulation {
 /// The cell corners of a scene, row by row from the bottom; a periodic direction lists each corner once [m].
 VectorField cell_corners(const Scene& scene);
 
+/// Where the grid field of a scheme is compared with a solution [m]: at the cell corners for the linear
+/// basis, whose nodes they are, and on a lattice of quarter cells for splines. (At corners and cell middles
+/// the error of a quadratic spline, ~ h^3 B_3(s) with the Bernoulli polynomial B_3, vanishes: order 4 there
+/// alone.) Directions of one cell get corners only.
+VectorField sample_points(const Scene& scene, const Scheme& scheme);
+
 /// Seeds the scene and starts the chosen scheme on it. Throws SceneError for a scene that cannot be
 /// simulated.
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme);

@@ -5,9 +5,10 @@
 #include <array>
 #include <memory>
 
-#include "solver/basis.hpp"
 #include "solver/particles.hpp"
 #include "solver/pressure.hpp"
+#include "solver/scene.hpp"
+#include "solver/stencil.hpp"
 
 namespace mpm {
 
@@ -19,6 +20,12 @@ class StressUpdate {
   /// Advances density by dt [s] and sets the stress; dt = 0 sets the stress of the present state.
   virtual void operator()(Particles& particles, const Grid& grid, const VectorField& nodal_velocity,
                           double dt) const = 0;
+  /// Advances density alone, by the volume ratio det(I + dt L) of the motion x + dt v(x): exact for that
+  /// motion, where rho/(1 + dt tr D) errs by dt^2 det L and makes every scheme first order.
+  virtual void compress(Particles& particles, const Grid& grid, const VectorField& nodal_velocity,
+                        double dt) const = 0;
+  /// Sets the stress to that of the pressure alone.
+  virtual void set_pressure(Particles& particles) const = 0;
 };
 
 /// sigma = 2 mu D - (2/3) mu tr(D) I (paper Eq. 21, without the pressure).
@@ -52,6 +59,21 @@ class FluidStress final : public StressUpdate {
                               pressure_.pressure(particles.density[p]) * Mat2::Identity();
       }
     }
+  }
+
+  void compress(Particles& particles, const Grid& grid, const VectorField& nodal_velocity,
+                double dt) const override {
+    if constexpr (Pressure::varies) {
+      for (std::size_t p = 0; p < particles.size(); ++p) {
+        const Mat2 l = gradient<Basis>(grid, nodal_velocity, particles.position[p]);
+        particles.density[p] /= (1 + dt * l(0, 0)) * (1 + dt * l(1, 1)) - dt * dt * l(0, 1) * l(1, 0);
+      }
+    }
+  }
+
+  void set_pressure(Particles& particles) const override {
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      particles.stress[p] = -pressure_.pressure(particles.density[p]) * Mat2::Identity();
   }
 
  private:

@@ -48,7 +48,7 @@ TEST_CASE("a scene that cannot be simulated is refused") {
   scene = good();
   scene.fluid.rheology = Newtonian{NAN};
   CHECK_THROWS_AS(scene.validate(), SceneError);
-  CHECK_THROWS_WITH(stepping_named("ufs"), contains("usf, usl, musl"));
+  CHECK_THROWS_WITH(stepping_named("ufs"), contains("usf, usl, musl, leapfrog"));
   CHECK(stepping_named(name(Scheme::Stepping::Musl)) == Scheme::Stepping::Musl);
 }
 

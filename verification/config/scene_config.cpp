@@ -5,7 +5,7 @@
 namespace verification {
 namespace {
 
-Discretisation read_discretisation(TomlTable table) {
+Discretisation read_discretisation(TomlTable& table) {
   Discretisation d;
   d.cells = table.integer("cells");
   if (d.cells < 1) table.fail("cells", "must be at least 1");
@@ -15,7 +15,6 @@ Discretisation read_discretisation(TomlTable table) {
   if (d.particles_across < 1) table.fail("particles_across", "must be at least 1");
   d.particles_along = table.integer("particles_along", 2);
   if (d.particles_along < 1) table.fail("particles_along", "must be at least 1");
-  table.refuse_unknown_keys();
   return d;
 }
 
@@ -29,11 +28,30 @@ auto read_named(TomlTable& table, const std::string& key, const std::string& abs
   }
 }
 
+/// Rows across the flow by the rule, even spacing along it: rows of a shear flow slide along themselves, and
+/// equal spacing keeps the nodal mass constant.
+mpm::Seeding read_seeding(TomlTable& table, int across) {
+  mpm::Seeding seeding;
+  seeding.rule[static_cast<std::size_t>(across)] = read_named(table, "seeding", "even", mpm::seeding_named);
+  seeding.displacement = table.number("displacement", 0);
+  if (!(seeding.displacement >= 0 && seeding.displacement <= 0.5))
+    table.fail("displacement", "must lie in [0, 0.5] of the particle spacing");
+  const int seed = table.integer("seed", 1);
+  if (seed < 0) table.fail("seed", "must not be negative");
+  seeding.seed = static_cast<unsigned>(seed);
+  return seeding;
+}
+
 mpm::Scheme read_scheme(TomlTable table) {
   mpm::Scheme scheme;
   scheme.basis = read_named(table, "basis", "linear", mpm::basis_named);
   scheme.transfer = read_named(table, "transfer", "flip", mpm::transfer_named);
   scheme.stepping = read_named(table, "stepping", "usf", mpm::stepping_named);
+  if (scheme.transfer == mpm::Scheme::Transfer::FlipBlend) {
+    scheme.flip_fraction = table.number("flip_fraction", scheme.flip_fraction);
+    if (!(scheme.flip_fraction >= 0 && scheme.flip_fraction <= 1))
+      table.fail("flip_fraction", "must lie in [0, 1]");
+  }
   table.refuse_unknown_keys();
   return scheme;
 }
@@ -103,7 +121,10 @@ SceneConfig read_scene_config(TomlTable root) {
   TomlTable scene = root.table("scene");
   config.flow_name = scene.text("flow");
   config.flow = read_flow(scene, config.fluid);
-  config.discretisation = read_discretisation(root.table("discretisation"));
+  TomlTable discretisation = root.table("discretisation");
+  config.discretisation = read_discretisation(discretisation);
+  const mpm::Seeding seeding = read_seeding(discretisation, config.flow->across());
+  discretisation.refuse_unknown_keys();
   config.scheme = read_scheme(root.table("scheme"));
   TomlTable time = root.table("time");
   config.start = time.has("start") ? time.positive("start") : 0;
@@ -117,6 +138,7 @@ SceneConfig read_scene_config(TomlTable root) {
   time.refuse_unknown_keys();
   root.refuse_unknown_keys();
   config.scene = config.flow->scene(config.discretisation);
+  config.scene.seeding = seeding;
   try {
     config.scene.validate();
     config.segments = mpm::plan_segments(config.time_step, config.scene, config.outputs, config.start);

@@ -21,7 +21,7 @@ class Recorder {
         simulation_(simulation),
         exact_(exact),
         data_(data),
-        corners_(mpm::cell_corners(plan.scene.scene)) {
+        samples_at_(mpm::sample_points(plan.scene.scene, plan.scene.scheme)) {
     record_history(plan.scene.start);
   }
 
@@ -33,8 +33,8 @@ class Recorder {
   }
 
   void at_output(double t) {
-    const mpm::VectorField grid = simulation_.grid_field(corners_, t);
-    for (std::size_t i = 0; i < corners_.size(); ++i) add(t, Location::Grid, corners_[i], grid[i]);
+    const mpm::VectorField grid = simulation_.grid_field(samples_at_, t);
+    for (std::size_t i = 0; i < samples_at_.size(); ++i) add(t, Location::Grid, samples_at_[i], grid[i]);
     const mpm::Particles& particles = simulation_.particles();
     for (std::size_t p = 0; p < particles.size(); ++p)
       add(t, Location::Particles, particles.position[p], particles.velocity[p]);
@@ -84,7 +84,7 @@ class Recorder {
   const mpm::Simulation& simulation_;
   const ExactField* exact_;
   RunData& data_;
-  mpm::VectorField corners_;
+  mpm::VectorField samples_at_;
   long samples_ = 0;
 };
 

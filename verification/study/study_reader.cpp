@@ -139,11 +139,18 @@ void require_comparable(const TomlTable& root, const Study& study) {
   if (study.comparison != Comparison::Discrete) return;
   for (const PlannedRun& planned : study.runs) {
     const SceneConfig& scene = planned.scene;
-    const bool usf_like = scene.scheme.stepping != mpm::Scheme::Stepping::Usl;
-    if (!usf_like || scene.time_step.dt == 0 ||
+    const mpm::Scheme& scheme = scene.scheme;
+    const bool papers_scheme =
+        scheme.basis == mpm::Scheme::Basis::Linear && scheme.transfer == mpm::Scheme::Transfer::Flip &&
+        (scheme.stepping == mpm::Scheme::Stepping::Usf || scheme.stepping == mpm::Scheme::Stepping::Musl);
+    const mpm::Seeding& seeding = scene.scene.seeding;
+    const bool evenly = seeding.displacement == 0 && seeding.rule[0] == seeding.rule[1];
+    if (!papers_scheme || !evenly || scene.time_step.dt == 0 ||
         !scene.flow->exact_discrete(scene.discretisation, scene.time_step.dt))
-      root.fail("compare_with", "\"discrete\" is known for usf and musl channels with a fixed dt only (run " +
-                                    planned.run + ")");
+      root.fail("compare_with",
+                "\"discrete\" is known for linear flip usf and musl channels, even seeding and a fixed dt "
+                "only (run " +
+                    planned.run + ")");
     for (const double t : scene.outputs)
       if (std::abs(t / scene.time_step.dt - std::round(t / scene.time_step.dt)) > 1e-6)
         root.fail("compare_with",

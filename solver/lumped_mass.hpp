@@ -1,0 +1,46 @@
+#pragma once
+
+#include "solver/boundary.hpp"
+#include "solver/sparse_pattern.hpp"
+#include "solver/stencil_table.hpp"
+
+namespace mpm {
+
+/// Nodal mass summed onto the diagonal, m_i = sum_p N_ip m_p: each node for itself.
+class LumpedMass {
+ public:
+  static constexpr bool needs_table = false;
+
+  LumpedMass(const Grid&, const WallNodes&) {}
+
+  /// Nothing to do: grid.mass is summed with the momenta.
+  void assemble(const StencilTable&, const ScalarField&) {}
+
+  /// field_i /= m_i, in place; a node without mass gets zero. `impose` sets the walls' values.
+  template <class Impose>
+  void solve(const Grid& grid, VectorField& field, Impose&& impose) const {
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      if (grid.mass[i] > 0)
+        field[i] /= grid.mass[i];
+      else
+        field[i] = Vec2::Zero();
+    }
+    impose(field);
+  }
+
+  /// Force of the walls on the fluid per unit depth [N/m].
+  [[nodiscard]] Vec2 wall_force(const Grid& grid, const WallNodes& walls) const {
+    return walls.reaction(grid);
+  }
+
+  /// The masses as a diagonal matrix.
+  [[nodiscard]] SparseMatrix matrix(const Grid& grid) const {
+    const auto n = static_cast<Eigen::Index>(grid.size());
+    SparseMatrix diagonal(n, n);
+    diagonal.setIdentity();
+    for (Eigen::Index i = 0; i < n; ++i) diagonal.coeffRef(i, i) = grid.mass[static_cast<std::size_t>(i)];
+    return diagonal;
+  }
+};
+
+}  // namespace mpm

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+
+#include "solver/simulation.hpp"
+
+namespace mpm {
+
+// One function a basis, each in a translation unit of its own: solver_<basis>.cpp.
+std::unique_ptr<Simulation> make_linear_solver(const Scene& scene, const Scheme& scheme);
+std::unique_ptr<Simulation> make_quadratic_solver(const Scene& scene, const Scheme& scheme);
+std::unique_ptr<Simulation> make_cubic_solver(const Scene& scene, const Scheme& scheme);
+
+}  // namespace mpm

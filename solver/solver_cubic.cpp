@@ -1,0 +1,9 @@
+#include "solver/solver_table.hpp"
+
+namespace mpm {
+
+std::unique_ptr<Simulation> make_cubic_solver(const Scene& scene, const Scheme& scheme) {
+  return make_solver_of_degree<3>(scene, scheme);
+}
+
+}  // namespace mpm
