@@ -56,10 +56,18 @@ void read_times(TomlTable& table, const Study& study, CheckSpec& spec) {
   }
 }
 
-void read_level(TomlTable& table, CheckSpec& spec) {
+/// Whether a level of a ladder is the one that run names end with, e.g. "n20".
+bool is_level(const PlannedRun& run, const std::string& tag) {
+  return run.run.ends_with("." + tag);
+}
+
+void read_level(TomlTable& table, const Study& study, CheckSpec& spec) {
   spec.level = table.text("level", "finest");
-  if (spec.level != "finest" && spec.level != "coarsest" && spec.level != "all")
-    table.fail("level", "must be \"finest\", \"coarsest\" or \"all\"");
+  if (spec.level == "finest" || spec.level == "coarsest" || spec.level == "all") return;
+  for (const std::string& variant : spec.variants)
+    if (std::ranges::none_of(study.runs_of(variant),
+                             [&](const PlannedRun* run) { return is_level(*run, spec.level); }))
+      table.fail("level", "must be \"finest\", \"coarsest\", \"all\" or a level as run names end with it");
 }
 
 std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& data,
@@ -67,12 +75,14 @@ std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& da
   auto runs = data.runs_of(variant);
   if (spec.level == "finest") return {runs.back()};
   if (spec.level == "coarsest") return {runs.front()};
+  if (spec.level != "all")
+    std::erase_if(runs, [&](const RunData* r) { return !is_level(*r->plan, spec.level); });
   return runs;
 }
 
 /// "variant: n20" where a check speaks of several levels.
 std::string label(const CheckSpec& spec, const RunData& run) {
-  if (spec.level != "all" || run.record.run.size() <= run.record.study.size())
+  if (spec.level == "finest" || spec.level == "coarsest" || run.record.run.size() <= run.record.study.size())
     return label(run.plan->variant);
   return run.record.run.substr(run.record.study.size() + 1) + ": ";
 }
@@ -84,7 +94,7 @@ void read_error(TomlTable& table, const Study& study, CheckSpec& spec) {
   read_locations(table, spec);
   read_norm(table, spec);
   read_times(table, study, spec);
-  read_level(table, spec);
+  read_level(table, study, spec);
 }
 
 void evaluate_error(const CheckSpec& spec, const StudyData& data, Records& records) {
@@ -123,12 +133,34 @@ void evaluate_order(const CheckSpec& spec, const StudyData& data, Records& recor
       }
 }
 
+// ---- growth: on a time ladder whose error is meant to grow as dt shrinks, the (negative) order in a band
+
+void read_growth(TomlTable& table, const Study& study, CheckSpec& spec) {
+  if (study.ladder.axis != Axis::Time) table.fail("kind", "\"growth\" needs a [ladder] in time");
+  require_band(table);
+  if (spec.upper >= 0) table.fail("upper", "must be negative: the error grows as dt shrinks");
+  read_locations(table, spec);
+  read_norm(table, spec);
+  read_times(table, study, spec);
+}
+
+void evaluate_growth(const CheckSpec& spec, const StudyData& data, Records& records) {
+  for (const reports::OrderRecord& order : data.orders)
+    for (const Location location : spec.locations)
+      if (order.location == name(location) && order.norm == spec.norm &&
+          std::ranges::count(spec.variants, order.variant) > 0 && std::ranges::count(spec.times, order.t) > 0)
+        records.push_back(judge(spec, data,
+                                fmt::format("{}growth as dt shrinks, {} {}, t = {} s", label(order.variant),
+                                            order.location, order.norm, order.t),
+                                order.classification == "divergent" ? order.observed : nan, "1"));
+}
+
 // ---- particle-bias: mean signed particle error in the middle half of the gap, in units of h^2 F/nu
 
 void read_bias(TomlTable& table, const Study& study, CheckSpec& spec) {
   require_band(table);
   read_times(table, study, spec);
-  read_level(table, spec);
+  read_level(table, study, spec);
   for (const PlannedRun& run : study.runs)
     if (std::ranges::count(spec.variants, run.variant) > 0 && !std::isfinite(run.scene.flow->bias_unit(1)))
       table.fail("kind", "\"particle-bias\" is for channels (run " + run.run + ")");
@@ -148,7 +180,7 @@ void read_difference(TomlTable& table, const Study& study, CheckSpec& spec) {
   require_upper(table, spec, 0);
   read_locations(table, spec);
   read_times(table, study, spec);
-  read_level(table, spec);
+  read_level(table, study, spec);
   spec.against = table.text("against");
   if (std::ranges::count(study.variants, spec.against) == 0)
     table.fail("against", "'" + spec.against + "' is no variant of this study");
@@ -172,9 +204,9 @@ void evaluate_difference(const CheckSpec& spec, const StudyData& data, Records& 
 
 // ---- conservation: mass, or momentum against the impulse of body and wall forces
 
-void read_conservation(TomlTable& table, const Study&, CheckSpec& spec) {
+void read_conservation(TomlTable& table, const Study& study, CheckSpec& spec) {
   require_upper(table, spec, 0);
-  read_level(table, spec);
+  read_level(table, study, spec);
   spec.quantity = table.text("quantity");
   if (spec.quantity != "mass" && spec.quantity != "momentum")
     table.fail("quantity", "must be \"mass\" or \"momentum\"");
@@ -208,6 +240,7 @@ const std::vector<CheckKind>& check_kinds() {
   static const std::vector<CheckKind> kinds = {
       {"error", read_error, evaluate_error},
       {"order", read_order, evaluate_order},
+      {"growth", read_growth, evaluate_growth},
       {"particle-bias", read_bias, evaluate_bias},
       {"difference", read_difference, evaluate_difference},
       {"conservation", read_conservation, evaluate_conservation},
