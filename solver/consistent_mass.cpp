@@ -18,7 +18,8 @@ constexpr double least_pivot = 1e-10;
 ConsistentMass::ConsistentMass(const Grid& grid, const WallNodes& walls)
     : strip_(grid.x.count() == 1 || grid.y.count() == 1),
       matrix_(pair_pattern(grid, 1)),
-      constrained_(matrix_) {
+      constrained_(matrix_),
+      slots_(grid, matrix_, 1) {
   for (std::size_t i = 0; i < grid.size(); ++i) is_wall_.push_back(walls.is_wall(i) ? 1 : 0);
   if (strip_) direct_.analyzePattern(constrained_);
 }
@@ -26,12 +27,17 @@ ConsistentMass::ConsistentMass(const Grid& grid, const WallNodes& walls)
 void ConsistentMass::assemble(const StencilTable& table, const ScalarField& particle_mass) {
   if (table.value == last_.value && table.node == last_.node) return;  // rows that only slid along the flow
   std::fill(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros(), 0.0);
+  const std::vector<int> distances = slots_.distances(table.width, table.support_x);
   const auto width = static_cast<std::size_t>(table.width);
-  for (std::size_t p = 0; p < particle_mass.size(); ++p)
-    for (std::size_t k = p * width; k < (p + 1) * width; ++k)
-      for (std::size_t l = p * width; l < (p + 1) * width; ++l)
-        matrix_.coeffRef(table.node[k], table.node[l]) +=
-            particle_mass[p] * (table.value[k] * table.value[l]);
+  double* entry = matrix_.valuePtr();
+  for (std::size_t p = 0; p < particle_mass.size(); ++p) {
+    const int* node = table.node.data() + p * width;
+    const double* value = table.value.data() + p * width;
+    for (std::size_t k = 0; k < width; ++k)
+      for (std::size_t l = 0; l < width; ++l)
+        entry[slots_.position(node[k], distances[k * width + l], 0)] +=
+            particle_mass[p] * (value[k] * value[l]);
+  }
   constrain();
   last_ = table;
 }

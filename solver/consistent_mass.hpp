@@ -50,6 +50,7 @@ class ConsistentMass {
   bool strip_, direct_holds_ = false;
   std::vector<char> is_wall_, is_fixed_;  // fixed: on a wall or without mass
   SparseMatrix matrix_, constrained_;
+  PairSlots slots_;
   double largest_ = 0;  // diagonal entry
   StencilTable last_;   // whose matrix stands assembled
   Eigen::SimplicialLDLT<SparseMatrix> direct_;

@@ -99,4 +99,19 @@ Particles seed_particles(const Scene& scene) {
   return particles;
 }
 
+std::vector<Mat2> initial_gradients(const Scene& scene, const Particles& particles) {
+  std::vector<Mat2> gradients(particles.size(), Mat2::Zero());
+  if (!scene.initial_velocity) return gradients;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    for (int axis : {0, 1}) {
+      Vec2 step = Vec2::Zero();
+      step[axis] = 1e-4 * scene.cell_size(axis);
+      const Vec2 x = particles.position[p];
+      gradients[p].col(axis) =
+          (scene.initial_velocity(x + step) - scene.initial_velocity(x - step)) / (2 * step[axis]);
+    }
+  }
+  return gradients;
+}
+
 }  // namespace mpm

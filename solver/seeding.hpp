@@ -20,4 +20,8 @@ CellPoints cell_points(Seeding::Rule rule, int n);
 /// velocity. Row by row from the bottom, left to right: the order fixes every sum.
 Particles seed_particles(const Scene& scene);
 
+/// Gradient of the initial velocity at every particle [1/s], by central differences over 1e-4 of a cell: what
+/// particles that carry an affine field start with. Without it the first map to the grid loses O(h^2).
+std::vector<Mat2> initial_gradients(const Scene& scene, const Particles& particles);
+
 }  // namespace mpm

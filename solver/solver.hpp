@@ -188,7 +188,7 @@ class Solver final : public Simulation {
       map_velocity(0, grid_, grid_.velocity, mass_, table_);
       grid_to_particles(0);
     } else {
-      if constexpr (std::is_same_v<Transfer, Apic>) particles_.affine.assign(particles_.size(), Mat2::Zero());
+      if constexpr (std::is_same_v<Transfer, Apic>) particles_.affine = initial_gradients(scene_, particles_);
       const VectorField jump = walls_.initial_jump(grid_);
       for (std::size_t p = 0; p < particles_.size(); ++p)
         transfer_.template take_jump<Basis>(grid_, jump, particles_, p);

@@ -36,6 +36,45 @@ SparseMatrix pair_pattern(const Grid& grid, int components) {
   return matrix;
 }
 
+namespace {
+
+/// Number of the function at a distance from another along an axis; -1 where there is none.
+int neighbour(const Axis& axis, int i, int distance) {
+  if (!axis.periodic) return i + distance < 0 || i + distance >= axis.count() ? -1 : i + distance;
+  return ((i + distance) % axis.cells + axis.cells) % axis.cells;
+}
+
+}  // namespace
+
+PairSlots::PairSlots(const Grid& grid, const SparseMatrix& pattern, int components)
+    : degree_(grid.x.degree), reach_(2 * degree_ + 1), components_(components) {
+  const int nx = grid.x.count(), ny = grid.y.count();
+  const auto find = [&](int row, int column) {
+    const int* begin = pattern.innerIndexPtr() + pattern.outerIndexPtr()[column];
+    const int* end = pattern.innerIndexPtr() + pattern.outerIndexPtr()[column + 1];
+    return static_cast<std::size_t>(std::lower_bound(begin, end, row) - pattern.innerIndexPtr());
+  };
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i)
+      for (int dj = -degree_; dj <= degree_; ++dj)
+        for (int di = -degree_; di <= degree_; ++di)
+          for (int b = 0; b < components; ++b) {
+            const int k = neighbour(grid.x, i, di), l = neighbour(grid.y, j, dj);
+            // Pairs that share no cell stay unused.
+            slot_.push_back(k < 0 || l < 0 ? 0
+                                           : find(components * (j * nx + i), components * (l * nx + k) + b));
+          }
+}
+
+std::vector<int> PairSlots::distances(int width, int support_x) const {
+  std::vector<int> distances;
+  for (int k = 0; k < width; ++k)
+    for (int l = 0; l < width; ++l)
+      distances.push_back((l / support_x - k / support_x + degree_) * reach_ + l % support_x - k % support_x +
+                          degree_);
+  return distances;
+}
+
 void decouple(SparseMatrix& matrix, const std::vector<char>& marked, double diagonal) {
   for (int column = 0; column < matrix.outerSize(); ++column)
     for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry)

@@ -6,16 +6,18 @@
 namespace mpm {
 
 /// The stencils of all particles written out, for work on matrices: code that reads it is compiled once for
-/// every basis. Entry p * width + k is the k-th node of particle p.
+/// every basis. Entry p * width + k is the k-th node of particle p,
+/// x running first.
 struct StencilTable {
-  int width = 0;
+  int width = 0, support_x = 0;
   std::vector<int> node;
   ScalarField value;     ///< N_ip [-]
   VectorField gradient;  ///< grad N_ip [1/m]
 
   template <class Basis>
   void assign(const Grid& grid, const Particles& particles) {
-    width = Stencil<Basis>::support_x * Stencil<Basis>::support_y;
+    support_x = Stencil<Basis>::support_x;
+    width = support_x * Stencil<Basis>::support_y;
     const std::size_t entries = particles.size() * static_cast<std::size_t>(width);
     node.resize(entries);
     value.resize(entries);

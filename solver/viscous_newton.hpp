@@ -18,7 +18,10 @@ template <class Law>
 class ViscousNewton final : public ImplicitViscosity {
  public:
   ViscousNewton(const Law& law, const Grid& grid, const WallNodes& walls)
-      : law_(law), cell_(std::min(grid.x.h, grid.y.h)), matrix_(pair_pattern(grid, 2)) {
+      : law_(law),
+        cell_(std::min(grid.x.h, grid.y.h)),
+        matrix_(pair_pattern(grid, 2)),
+        slots_(grid, matrix_, 2) {
     for (std::size_t i = 0; i < grid.size(); ++i) is_wall_.push_back(walls.is_wall(i) ? 1 : 0);
     factors_.analyzePattern(matrix_);
   }
@@ -143,7 +146,8 @@ class ViscousNewton final : public ImplicitViscosity {
       for (SparseMatrix::InnerIterator entry(*mass_, column); entry; ++entry)
         for (int a : {0, 1})
           matrix_.coeffRef(2 * static_cast<int>(entry.row()) + a, 2 * column + a) += entry.value();
-    for (std::size_t p = 0; p < particles_->size(); ++p) add_particle(velocity, p);
+    const std::vector<int> distances = slots_.distances(table_->width, table_->support_x);
+    for (std::size_t p = 0; p < particles_->size(); ++p) add_particle(velocity, p, distances);
     std::vector<char> marked;
     for (const char fixed : is_fixed_) marked.insert(marked.end(), 2, fixed);
     decouple(matrix_, marked, matrix_.diagonal().maxCoeff());
@@ -151,7 +155,7 @@ class ViscousNewton final : public ImplicitViscosity {
     factorised_ = true;
   }
 
-  void add_particle(const VectorField& velocity, std::size_t p) {
+  void add_particle(const VectorField& velocity, std::size_t p, const std::vector<int>& distances) {
     const auto width = static_cast<std::size_t>(table_->width);
     const Mat2 d = strain_rate(velocity, p);
     const auto [mu, slope] = viscosity(2 * d.squaredNorm());
@@ -163,9 +167,11 @@ class ViscousNewton final : public ImplicitViscosity {
         const Mat2 block = weight * (mu * (g_k.dot(g_l) * Mat2::Identity() + g_l * g_k.transpose() -
                                            (2.0 / 3.0) * g_k * g_l.transpose()) +
                                      8 * slope * d_k * d_l.transpose());
-        for (int a : {0, 1})
-          for (int b : {0, 1})
-            matrix_.coeffRef(2 * table_->node[k] + a, 2 * table_->node[l] + b) += block(a, b);
+        for (int b : {0, 1}) {
+          const std::size_t first =
+              slots_.position(table_->node[k], distances[(k - p * width) * width + (l - p * width)], b);
+          for (int a : {0, 1}) matrix_.valuePtr()[first + static_cast<std::size_t>(a)] += block(a, b);
+        }
       }
     }
   }
@@ -223,6 +229,7 @@ class ViscousNewton final : public ImplicitViscosity {
   double cell_;
   std::vector<char> is_wall_, is_fixed_;
   SparseMatrix matrix_;
+  PairSlots slots_;
   Eigen::SimplicialLDLT<SparseMatrix> factors_;
   bool factorised_ = false;
   // The system at hand.

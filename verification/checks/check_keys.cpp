@@ -47,17 +47,28 @@ void read_times(TomlTable& table, const Study& study, CheckSpec& spec) {
   }
 }
 
+namespace {
+
+/// Whether a run is at the level that run names end with, e.g. "n20".
+bool is_level(const PlannedRun& run, const std::string& tag) {
+  return run.run.ends_with("." + tag);
+}
+
+bool is_extreme(const std::string& level) {
+  return level == "finest" || level == "coarsest";
+}
+
+}  // namespace
+
 void read_level(TomlTable& table, const Study& study, CheckSpec& spec) {
-  if (table.has("cells")) {
-    spec.cells = table.integer("cells");
-    if (table.has("level")) table.fail("level", "cannot stand beside cells");
-    if (std::ranges::count(study.ladder.cells, spec.cells) == 0)
-      table.fail("cells", "is no level of the [ladder]");
-    return;
-  }
   spec.level = table.text("level", "finest");
-  if (spec.level != "finest" && spec.level != "coarsest" && spec.level != "all")
-    table.fail("level", "must be \"finest\", \"coarsest\" or \"all\"");
+  if (is_extreme(spec.level) || spec.level == "all") return;
+  for (const std::string& variant : spec.variants)
+    if (std::ranges::none_of(study.runs_of(variant),
+                             [&](const PlannedRun* run) { return is_level(*run, spec.level); }))
+      table.fail(
+          "level",
+          "must be \"finest\", \"coarsest\", \"all\" or a level as run names end with it, e.g. \"n20\"");
 }
 
 void read_against(TomlTable& table, const Study& study, CheckSpec& spec) {
@@ -71,16 +82,15 @@ void read_against(TomlTable& table, const Study& study, CheckSpec& spec) {
 std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& data,
                                       const std::string& variant) {
   auto runs = data.runs_of(variant);
-  if (spec.cells > 0)
-    std::erase_if(runs, [&](const RunData* run) { return run->record.cells != spec.cells; });
   if (spec.level == "finest") return {runs.back()};
   if (spec.level == "coarsest") return {runs.front()};
+  if (spec.level != "all")
+    std::erase_if(runs, [&](const RunData* run) { return !is_level(*run->plan, spec.level); });
   return runs;
 }
 
-/// "variant: n20" where a check speaks of several levels.
 std::string label(const CheckSpec& spec, const RunData& run) {
-  if ((spec.level != "all" && spec.cells == 0) || run.record.run.size() <= run.record.study.size())
+  if (is_extreme(spec.level) || run.record.run.size() <= run.record.study.size())
     return label(run.plan->variant);
   return run.record.run.substr(run.record.study.size() + 1) + ": ";
 }

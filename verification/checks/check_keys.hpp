@@ -14,7 +14,7 @@ void read_locations(TomlTable& table, CheckSpec& spec);
 void read_norm(TomlTable& table, CheckSpec& spec);
 /// `times`, each an output time of every run spoken of; all of them if absent.
 void read_times(TomlTable& table, const Study& study, CheckSpec& spec);
-/// `level` = "finest", "coarsest" or "all", or `cells` = a resolution of the ladder.
+/// `level` = "finest", "coarsest", "all", or the end of a run's name, e.g. "n20".
 void read_level(TomlTable& table, const Study& study, CheckSpec& spec);
 /// `against`: another variant.
 void read_against(TomlTable& table, const Study& study, CheckSpec& spec);
@@ -24,7 +24,7 @@ std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& da
                                       const std::string& variant);
 /// "variant: ", or "" where the study has none.
 std::string label(const std::string& variant);
-/// "variant.n20: " where a check speaks of several levels or of one by its cells.
+/// "variant.n20: " where a check speaks of several levels or of one by its name.
 std::string label(const CheckSpec& spec, const RunData& run);
 
 /// Adds the kinds that compare scalars: scalar, ordering, ratio, crossing (checks/quantity_checks.cpp).

@@ -61,6 +61,28 @@ void evaluate_order(const CheckSpec& spec, const StudyData& data, Records& recor
       }
 }
 
+// ---- growth: on a time ladder whose error is meant to grow as dt shrinks, the (negative) order in a band
+
+void read_growth(TomlTable& table, const Study& study, CheckSpec& spec) {
+  if (study.ladder.axis != Axis::Time) table.fail("kind", "\"growth\" needs a [ladder] in time");
+  require_band(table);
+  if (spec.upper >= 0) table.fail("upper", "must be negative: the error grows as dt shrinks");
+  read_locations(table, spec);
+  read_norm(table, spec);
+  read_times(table, study, spec);
+}
+
+void evaluate_growth(const CheckSpec& spec, const StudyData& data, Records& records) {
+  for (const reports::OrderRecord& order : data.orders)
+    for (const Location location : spec.locations)
+      if (order.location == name(location) && order.norm == spec.norm &&
+          std::ranges::count(spec.variants, order.variant) > 0 && std::ranges::count(spec.times, order.t) > 0)
+        records.push_back(judge(spec, data,
+                                fmt::format("{}growth as dt shrinks, {} {}, t = {} s", label(order.variant),
+                                            order.location, order.norm, order.t),
+                                order.classification == "divergent" ? order.observed : nan, "1"));
+}
+
 // ---- particle-bias: mean signed particle error in the middle half of the gap, in units of h^2 F/nu
 
 void read_bias(TomlTable& table, const Study& study, CheckSpec& spec) {
@@ -143,6 +165,7 @@ const std::vector<CheckKind>& check_kinds() {
     std::vector<CheckKind> list = {
         {"error", read_error, evaluate_error},
         {"order", read_order, evaluate_order},
+        {"growth", read_growth, evaluate_growth},
         {"particle-bias", read_bias, evaluate_bias},
         {"difference", read_difference, evaluate_difference},
         {"conservation", read_conservation, evaluate_conservation},

@@ -48,9 +48,8 @@ struct CheckSpec {
   std::vector<Location> locations;
   std::string norm;           ///< "l1", "l2", "linf"
   std::vector<double> times;  ///< [s]
-  std::string level;          ///< "finest", "coarsest", "all"
+  std::string level;          ///< "finest", "coarsest", "all", or the end of a run's name, e.g. "n20"
   std::string against;        ///< variant to compare with
-  int cells = 0;              ///< level chosen by its resolution; 0: by `level`
   std::string quantity;       ///< conserved quantity, or one of checks/quantities.hpp
   double place = 0;           ///< fraction of the gap
   std::string claim;          ///< that this check is evidence for; "" for none
