@@ -117,6 +117,18 @@ struct ClaimRecord {
   bool stands = true;     ///< every check behind the verdict holds
 };
 
+/// matrix.csv: one cell of the order matrix, a scheme on a flow refined along an axis.
+struct MatrixRecord {
+  std::string basis, transfer, stepping, scene;
+  std::string axis, location;
+  double theoretical = 0;             ///< NaN where theory gives none
+  double observed = 0;                ///< L2 order at the last output
+  double ci_lower = 0, ci_upper = 0;  ///< its 95 % confidence interval
+  double smallest_error = 0;          ///< reached on the ladder, relative [-]
+  std::string verdict;                ///< "pass", "fail", or "not an order" with its reason
+  std::string reason;
+};
+
 /// figures.csv: what to draw from the files above. Lists are joined by ';'.
 struct FigureRecord {
   std::string figure;  ///< file stem, unique
@@ -143,6 +155,7 @@ struct Results {
   std::vector<TimingRecord> timings;
   std::vector<FigureRecord> figures;
   std::vector<ClaimRecord> claims;
+  std::vector<MatrixRecord> matrix;
 };
 
 }  // namespace reports

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "reports/html_matrix.hpp"
+
 namespace reports {
 namespace {
 
@@ -157,6 +159,7 @@ std::string markdown_report(const ReportData& data) {
   if (!data.warnings.empty()) text += "\n## Warnings\n\n";
   for (const std::string& warning : data.warnings) text += "- " + markdown_text(warning) + "\n";
   text += claim_section(data.results.claims);
+  text += markdown_matrix(data.results.matrix);
   text += check_section(data.results);
   text += order_section(data.results);
   text += diverged_section(data.results);

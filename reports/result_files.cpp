@@ -108,6 +108,21 @@ constexpr auto claim_columns = std::make_tuple(    //
     column("note", &ClaimRecord::note),            //
     column("stands", &ClaimRecord::stands));
 
+constexpr auto matrix_columns = std::make_tuple(              //
+    column("basis", &MatrixRecord::basis),                    //
+    column("transfer", &MatrixRecord::transfer),              //
+    column("stepping", &MatrixRecord::stepping),              //
+    column("scene", &MatrixRecord::scene),                    //
+    column("axis", &MatrixRecord::axis),                      //
+    column("location", &MatrixRecord::location),              //
+    column("theoretical", &MatrixRecord::theoretical),        //
+    column("observed", &MatrixRecord::observed),              //
+    column("ci_lower", &MatrixRecord::ci_lower),              //
+    column("ci_upper", &MatrixRecord::ci_upper),              //
+    column("smallest_error", &MatrixRecord::smallest_error),  //
+    column("verdict", &MatrixRecord::verdict),                //
+    column("reason", &MatrixRecord::reason));
+
 constexpr auto shear_columns = std::make_tuple(   //
     column("t", &ShearRow::t),                    //
     column("location", &ShearRow::location),      //
@@ -178,6 +193,7 @@ Results read_results(const std::filesystem::path& dir) {
   results.timings = read_csv(dir / "timing.csv", timing_columns);
   results.figures = read_csv(dir / "figures.csv", figure_columns);
   results.claims = read_csv(dir / "claims.csv", claim_columns);
+  results.matrix = read_csv(dir / "matrix.csv", matrix_columns);
   require_plain_names(results);
   return results;
 }
@@ -194,6 +210,7 @@ void write_results(const std::filesystem::path& dir, const Results& results) {
   write_csv(dir / "timing.csv", timing_columns, results.timings);
   write_csv(dir / "figures.csv", figure_columns, results.figures);
   write_csv(dir / "claims.csv", claim_columns, results.claims);
+  write_csv(dir / "matrix.csv", matrix_columns, results.matrix);
 }
 
 std::vector<ProfileRow> read_profile(const std::filesystem::path& dir, const std::string& run) {

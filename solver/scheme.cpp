@@ -80,12 +80,13 @@ Scheme::Stepping stepping_named(const std::string& text) {
 
 FormalOrder formal_order(const Scheme& scheme) {
   const int degree = 1 + static_cast<int>(scheme.basis);
-  FormalOrder order{2, 1, 0};
+  FormalOrder order{2, 2, 1, 0};
   using Transfer = Scheme::Transfer;
-  if (scheme.transfer == Transfer::FullMass) order.space = degree + 1;
-  // FLIP with lumped mass and clamped splines: the first functions overlap the wall's, and what lumping moves
-  // there is O(h) of the wall's gradient.
-  if (scheme.transfer == Transfer::Flip && degree > 1) order.space = 1;
+  if (scheme.transfer == Transfer::FullMass) order.space = order.space_particles = degree + 1;
+  // FLIP with lumped mass and clamped splines: what lumping moves where the first functions overlap the
+  // wall's is O(h) of the wall's gradient. The grid's own velocity does not feel it, the particles keep it,
+  // in a layer O(h) wide: Linf of order 1, L2 of order 3/2.
+  if (scheme.transfer == Transfer::Flip && degree > 1) order.space_particles = 1.5;
   if (scheme.transfer == Transfer::Pic ||
       (scheme.transfer == Transfer::FlipBlend && scheme.flip_fraction < 1))
     order.remap_space = 2;

@@ -42,7 +42,8 @@ Scheme::Stepping stepping_named(const std::string& text);
 /// Powers of h and dt that theory gives the error of a scheme, for a smooth shear flow along frozen particle
 /// rows.
 struct FormalOrder {
-  double space;  ///< of the grid field at a step that makes the time error negligible
+  double space;            ///< of the grid field at a step that makes the time error negligible
+  double space_particles;  ///< of the particles' own velocities, L2
   /// Of the difference of successive dt on one mesh. In flows that mix particles, lumped FLIP drifts with a
   /// smoothed velocity, which leaves an error O(h^2 dt) beside this.
   double time;

@@ -61,6 +61,31 @@ void evaluate_order(const CheckSpec& spec, const StudyData& data, Records& recor
       }
 }
 
+// ---- formal-order: each scheme of a [matrix] within `tolerance` of its own theoretical order
+
+void read_formal_order(TomlTable& table, const Study& study, CheckSpec& spec) {
+  if (!study.matrix || study.ladder.axis == Axis::None)
+    table.fail("kind", "\"formal-order\" needs a [matrix] and a [ladder]");
+  spec.tolerance = table.positive("tolerance");
+  read_locations(table, spec);
+  spec.times = {study.runs.front().scene.outputs.back()};
+}
+
+void evaluate_formal_order(const CheckSpec& spec, const StudyData& data, Records& records) {
+  for (const reports::OrderRecord& order : data.orders)
+    for (const Location location : spec.locations) {
+      if (order.location != name(location) || order.norm != "l2" || order.t != spec.times[0]) continue;
+      if (std::isnan(order.theoretical) || std::ranges::count(spec.variants, order.variant) == 0) continue;
+      CheckSpec band = spec;
+      band.lower = order.theoretical - spec.tolerance;
+      band.upper = order.theoretical + spec.tolerance;
+      const bool usable = order.classification == "monotone" || order.theoretical <= 0;
+      records.push_back(
+          judge(band, data, fmt::format("{}: formal {} order, {}", order.variant, order.axis, order.location),
+                usable ? order.observed : nan, "1"));
+    }
+}
+
 // ---- growth: on a time ladder whose error is meant to grow as dt shrinks, the (negative) order in a band
 
 void read_growth(TomlTable& table, const Study& study, CheckSpec& spec) {
@@ -165,6 +190,7 @@ const std::vector<CheckKind>& check_kinds() {
     std::vector<CheckKind> list = {
         {"error", read_error, evaluate_error},
         {"order", read_order, evaluate_order},
+        {"formal-order", read_formal_order, evaluate_formal_order},
         {"growth", read_growth, evaluate_growth},
         {"particle-bias", read_bias, evaluate_bias},
         {"difference", read_difference, evaluate_difference},

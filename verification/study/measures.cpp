@@ -84,7 +84,8 @@ void measure_ladder(StudyData& data, const std::string& variant, Location locati
   order.location = name(location);
   order.norm = norm;
   order.t = t;
-  order.theoretical = ladder.theoretical;
+  order.theoretical = location == Location::Grid ? runs.front()->plan->theoretical
+                                                 : runs.front()->plan->theoretical_particles;
   order.observed = estimate.order;
   order.ci_lower = estimate.has_interval ? estimate.lower : nan;
   order.ci_upper = estimate.has_interval ? estimate.upper : nan;
@@ -94,8 +95,8 @@ void measure_ladder(StudyData& data, const std::string& variant, Location locati
   for (const double p : estimate.pairwise)
     order.pairwise += (order.pairwise.empty() ? "" : ";") + fmt::format("{:.4f}", p);
   order.gci = order.gci_safety_factor = order.uncertainty = nan;
-  if (ladder.axis == Axis::Space && location == Location::Grid)
-    add_uncertainty(order, runs, output, ladder.theoretical);
+  if (ladder.axis == Axis::Space && location == Location::Grid && order.theoretical >= 1)
+    add_uncertainty(order, runs, output, order.theoretical);
   data.orders.push_back(order);
 }
 

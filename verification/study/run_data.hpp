@@ -32,6 +32,7 @@ struct StudyData {
   std::vector<reports::OrderRecord> orders;
   std::vector<reports::CheckRecord> checks;
   std::vector<reports::ClaimRecord> claims;
+  std::vector<reports::MatrixRecord> matrix;
 
   [[nodiscard]] std::vector<const RunData*> runs_of(const std::string& variant) const {
     std::vector<const RunData*> found;

@@ -25,6 +25,8 @@ struct PlannedRun {
   std::string variant;  ///< "" where the study has none
   int level = 0;        ///< on the ladder, 0 the coarsest
   double step = 0;      ///< refined quantity: h [m] or dt [s]
+  /// Order that theory gives its ladder, on the grid and on the particles.
+  double theoretical = std::numeric_limits<double>::quiet_NaN(), theoretical_particles = theoretical;
   SceneConfig scene;
 };
 
@@ -34,10 +36,13 @@ std::string name(Axis axis);
 /// How the levels of a study differ.
 struct Ladder {
   Axis axis = Axis::None;
-  std::vector<int> cells;  ///< Space: across, coarse to fine
-  double dt_exponent = 2;  ///< Space: dt = time.dt (cells[0]/cells)^dt_exponent
-  std::vector<double> dt;  ///< Time: coarse to fine [s]
-  double theoretical = std::numeric_limits<double>::quiet_NaN();  ///< order that theory gives
+  std::vector<int> cells;        ///< Space: across, coarse to fine
+  bool formal_exponent = false;  ///< Space: dt_exponent follows from each scheme's formal orders
+  double dt_exponent = 2;        ///< Space: dt = time.dt (cells[0]/cells)^dt_exponent
+  std::vector<double> dt;        ///< Time: coarse to fine [s]
+  double theoretical = std::numeric_limits<double>::quiet_NaN();            ///< order that theory gives
+  double theoretical_particles = std::numeric_limits<double>::quiet_NaN();  ///< the same for the particles
+
   double floor = 0;  ///< relative error below which levels are round-off: dropped within 10x of it
 };
 
@@ -51,6 +56,7 @@ struct CheckSpec {
   std::string level;          ///< "finest", "coarsest", "all", or the end of a run's name, e.g. "n20"
   std::string against;        ///< variant to compare with
   std::string quantity;       ///< conserved quantity, or one of checks/quantities.hpp
+  double tolerance = 0;       ///< half width of a band about each variant's own theory
   double place = 0;           ///< fraction of the gap
   std::string claim;          ///< that this check is evidence for; "" for none
   double lower = -std::numeric_limits<double>::infinity();
@@ -70,6 +76,7 @@ struct Study {
   Comparison comparison = Comparison::Exact;
   std::string solver_command;  ///< of an external solver; "" for ours
   Ladder ladder;
+  bool matrix = false;  ///< its variants are a [matrix] of schemes
   std::vector<std::string> variants;
   std::vector<PlannedRun> runs;  ///< variant by variant, coarse to fine
   std::vector<CheckSpec> checks;

@@ -1,5 +1,7 @@
 #include "verification/study/study_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +9,7 @@
 #include "verification/checks/check_reader.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/study/figure_reader.hpp"
+#include "verification/study/scheme_matrix.hpp"
 
 namespace verification {
 namespace {
@@ -22,7 +25,7 @@ void require_ladder(const TomlTable& table, const std::string& key, const std::v
   }
 }
 
-Ladder read_ladder(TomlTable table, bool present) {
+Ladder read_ladder(TomlTable table, bool present, bool matrix) {
   Ladder ladder;
   if (!present) return ladder;
   const std::string axis = table.text("axis");
@@ -30,6 +33,7 @@ Ladder read_ladder(TomlTable table, bool present) {
     ladder.axis = Axis::Space;
     ladder.cells = table.integers("cells");
     require_ladder(table, "cells", ladder.cells, true);
+    ladder.formal_exponent = table.flag("formal_dt_exponent", false);
     ladder.dt_exponent = table.number("dt_exponent", ladder.dt_exponent);
   } else if (axis == "time") {
     ladder.axis = Axis::Time;
@@ -39,7 +43,9 @@ Ladder read_ladder(TomlTable table, bool present) {
   } else {
     table.fail("axis", "must be \"space\" or \"time\"");
   }
-  ladder.theoretical = table.positive("theoretical");
+  // A matrix of schemes knows each scheme's own order.
+  if (!matrix || table.has("theoretical"))
+    ladder.theoretical = ladder.theoretical_particles = table.positive("theoretical");
   ladder.floor = table.positive("floor", ladder.floor);
   table.refuse_unknown_keys();
   return ladder;
@@ -65,8 +71,20 @@ TomlTable at_level(const TomlTable& scene, const Ladder& ladder, int level, std:
   return result;
 }
 
+/// What a matrix of schemes needs to know of one of them before its runs are planned.
+Ladder ladder_for(const Study& study, const TomlTable& scene) {
+  Ladder ladder = study.ladder;
+  if (!study.matrix) return ladder;
+  TomlTable copy = scene.overlaid_with(TomlTable::from_text("", ""), "");
+  const mpm::Scheme scheme = read_scene_config(copy).scheme;
+  if (ladder.formal_exponent) ladder.dt_exponent = formal_dt_exponent(scheme);
+  ladder.theoretical = expected_order(scheme, ladder.axis, ladder.dt_exponent, Location::Grid);
+  ladder.theoretical_particles = expected_order(scheme, ladder.axis, ladder.dt_exponent, Location::Particles);
+  return ladder;
+}
+
 void plan_runs(Study& study, const TomlTable& scene, const std::string& variant) {
-  const Ladder& ladder = study.ladder;
+  const Ladder ladder = ladder_for(study, scene);
   const std::size_t levels = ladder.axis == Axis::Space  ? ladder.cells.size()
                              : ladder.axis == Axis::Time ? ladder.dt.size()
                                                          : 1;
@@ -75,6 +93,8 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
     std::string tag;
     planned.scene = read_scene_config(at_level(scene, ladder, static_cast<int>(level), tag));
     planned.variant = variant;
+    planned.theoretical = ladder.theoretical;
+    planned.theoretical_particles = ladder.theoretical_particles;
     planned.level = static_cast<int>(level);
     planned.step = ladder.axis == Axis::Time ? ladder.dt[level] : planned.scene.cell_size();
     planned.run = study.name + (variant.empty() ? "" : "." + variant) + (tag.empty() ? "" : "." + tag);
@@ -83,7 +103,19 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
 }
 
 void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
+  if (study.matrix) {
+    for (const MatrixEntry& entry : read_matrix(root.table("matrix"))) {
+      const TomlTable scheme =
+          TomlTable::from_text(fmt::format("[scheme]\nbasis = \"{}\"\ntransfer = \"{}\"\nstepping = \"{}\"\n",
+                                           entry.basis, entry.transfer, entry.stepping),
+                               "matrix");
+      study.variants.push_back(entry.variant);
+      plan_runs(study, base.overlaid_with(scheme, "scheme " + entry.variant), entry.variant);
+    }
+    return;
+  }
   std::vector<TomlTable> variants = root.tables("variant");
+
   if (variants.empty()) {
     study.variants = {""};
     plan_runs(study, base, "");
@@ -174,7 +206,8 @@ Study read_study(const std::filesystem::path& file) {
     root.fail("suite", error.what());
   }
   study.comparison = read_comparison(root);
-  study.ladder = read_ladder(root.table("ladder"), root.has("ladder"));
+  study.ladder = read_ladder(root.table("ladder"), root.has("ladder"), root.has("matrix"));
+  study.matrix = root.has("matrix");
   if (root.has("solver")) {
     TomlTable solver = root.table("solver");
     study.solver_command = solver.text("command");

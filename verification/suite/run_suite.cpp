@@ -14,6 +14,7 @@
 #include "verification/study/measures.hpp"
 #include "verification/study/run_external.hpp"
 #include "verification/study/run_simulation.hpp"
+#include "verification/study/scheme_matrix.hpp"
 
 namespace verification {
 namespace {
@@ -135,6 +136,7 @@ class SuiteRunner {
   void conclude(StudyData& data) {
     measure_orders(data);
     evaluate_checks(data);
+    data.matrix = matrix_records(data);
     for (RunData& run : data.runs) {
       run.profile = {};  // on disk by now; a suite would hold gigabytes otherwise
       run.history = {};
@@ -159,6 +161,7 @@ class SuiteRunner {
       append(results.orders, data_[s].orders);
       append(results.checks, data_[s].checks);
       append(results.claims, data_[s].claims);
+      append(results.matrix, data_[s].matrix);
       append(results.figures, study.figures);
     }
     return results;

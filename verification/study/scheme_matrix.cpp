@@ -1,0 +1,93 @@
+#include "verification/study/scheme_matrix.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace verification {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// All names of the parts, where the user lists none.
+std::vector<std::string> names_of(TomlTable& table, const std::string& key,
+                                  const std::vector<mpm::SchemePart>& parts) {
+  std::vector<std::string> known;
+  for (const mpm::SchemePart& part : parts) known.push_back(part.name);
+  const std::vector<std::string> names = table.has(key) ? table.texts(key) : known;
+  for (const std::string& name : names)
+    if (std::ranges::count(known, name) == 0) table.fail(key, "'" + name + "' is not known");
+  return names;
+}
+
+/// Smallest usable error of the ladder behind an order.
+double smallest_error(const StudyData& data, const reports::OrderRecord& order) {
+  double smallest = nan;
+  for (const reports::LevelRecord& level : data.levels)
+    if (level.variant == order.variant && level.location == order.location && level.norm == order.norm &&
+        level.t == order.t && !(level.value >= smallest))
+      smallest = level.value;
+  return smallest;
+}
+
+std::string reason(const mpm::FormalOrder& formal, Axis axis) {
+  if (formal.remap_space > 0 && axis == Axis::Time)
+    return "loses ~ h^" + std::to_string(static_cast<int>(formal.remap_space)) +
+           "/dt a second: the error grows as dt shrinks, no order in dt exists (studies remap-*)";
+  if (formal.remap_space > 0) return "the remap's loss ~ h^r/dt takes part";
+  return "";
+}
+
+}  // namespace
+
+std::vector<MatrixEntry> read_matrix(TomlTable table) {
+  std::vector<MatrixEntry> entries;
+  const auto bases = names_of(table, "basis", mpm::basis_parts());
+  const auto transfers = names_of(table, "transfer", mpm::transfer_parts());
+  const auto steppings = names_of(table, "stepping", mpm::stepping_parts());
+  table.refuse_unknown_keys();
+  for (const std::string& basis : bases)
+    for (const std::string& transfer : transfers)
+      for (const std::string& stepping : steppings)
+        entries.push_back({basis + "_" + transfer + "_" + stepping, basis, transfer, stepping});
+  return entries;
+}
+
+double formal_dt_exponent(const mpm::Scheme& scheme) {
+  const mpm::FormalOrder formal = mpm::formal_order(scheme);
+  return std::max(
+      2.0, formal.space / formal.time);  // at least 2, so that nu dt/h^2 stays below the explicit limit
+}
+
+double expected_order(const mpm::Scheme& scheme, Axis axis, double dt_exponent, Location location) {
+  const mpm::FormalOrder formal = mpm::formal_order(scheme);
+  if (axis == Axis::Time) return formal.remap_space > 0 ? nan : formal.time;
+  const double space = location == Location::Grid ? formal.space : formal.space_particles;
+  double order = std::min(space, formal.time * dt_exponent);
+  if (formal.remap_space > 0) order = std::min(order, formal.remap_space - dt_exponent);
+  return order;
+}
+
+std::vector<reports::MatrixRecord> matrix_records(const StudyData& data) {
+  std::vector<reports::MatrixRecord> records;
+  if (!data.study->matrix) return records;
+  for (const reports::OrderRecord& order : data.orders) {
+    const RunData& run = *data.runs_of(order.variant).front();
+    if (order.norm != "l2" || order.t != run.plan->scene.outputs.back()) continue;
+    const Axis axis = data.study->ladder.axis;
+    const mpm::FormalOrder formal = mpm::formal_order(run.plan->scene.scheme);
+    reports::MatrixRecord record{
+        run.record.basis,    run.record.transfer, run.record.stepping,         run.record.scene,
+        order.axis,          order.location,      order.theoretical,           order.observed,
+        order.ci_lower,      order.ci_upper,      smallest_error(data, order), "",
+        reason(formal, axis)};
+    const std::string suffix = order.variant + ": formal " + order.axis + " order, " + order.location;
+    for (const reports::CheckRecord& check : data.checks)
+      if (check.check.starts_with(suffix)) record.verdict = check.verdict;
+    if (record.verdict.empty()) record.verdict = "not an order";
+    records.push_back(record);
+  }
+  return records;
+}
+
+}  // namespace verification
