@@ -28,6 +28,22 @@ class LumpedMass {
     impose(field);
   }
 
+  /// What the grid sees of a nodal increment once particles have added it to their own velocity: with lumped
+  /// mass P2G after G2P is a smoothing, and a stage that left it out would be first order in time.
+  template <class Basis>
+  void remap(const Grid& grid, const Particles& particles, VectorField& field) const {
+    VectorField sum(field.size(), Vec2::Zero());
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const Stencil<Basis> stencil(grid, particles.position[p]);
+      Vec2 share = Vec2::Zero();
+      stencil.values([&](std::size_t i, double n) { share += n * field[i]; });
+      share *= particles.mass[p];
+      stencil.values([&](std::size_t i, double n) { sum[i] += n * share; });
+    }
+    solve(grid, sum, [](VectorField&) {});
+    field.swap(sum);
+  }
+
   /// Force of the walls on the fluid per unit depth [N/m].
   [[nodiscard]] Vec2 wall_force(const Grid& grid, const WallNodes& walls) const {
     return walls.reaction(grid);

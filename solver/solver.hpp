@@ -258,26 +258,10 @@ class Solver final : public Simulation {
     forces(t);
     solve_acceleration([&](VectorField& a) { walls_.impose_mean_acceleration(a, t, dt / 2); });
     if constexpr (Transfer::keeps_velocity) {
-      remap(grid_.acceleration);
+      mass_.template remap<Basis>(grid_, particles_, grid_.acceleration);
       walls_.impose_mean_acceleration(grid_.acceleration, t, dt / 2);
     }
     set_velocity(start_velocity_, dt / 2);
-  }
-
-  /// What the grid sees of a nodal increment once particles have added it to their own velocity: with lumped
-  /// mass P2G after G2P is a smoothing, and a stage that left it out would be first order in time.
-  void remap(VectorField& field) {
-    VectorField& sum = grid_.mapped;
-    std::fill(sum.begin(), sum.end(), Vec2::Zero());
-    for (std::size_t p = 0; p < particles_.size(); ++p) {
-      const Stencil<Basis> stencil(grid_, particles_.position[p]);
-      Vec2 share = Vec2::Zero();
-      stencil.values([&](std::size_t i, double n) { share += n * field[i]; });
-      share *= particles_.mass[p];
-      stencil.values([&](std::size_t i, double n) { sum[i] += n * share; });
-    }
-    mass_.solve(grid_, sum, [](VectorField&) {});
-    field.swap(sum);
   }
 
   void set_velocity(const VectorField& start, double dt) {
