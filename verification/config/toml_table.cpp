@@ -1,5 +1,6 @@
 #include "verification/config/toml_table.hpp"
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -62,6 +63,46 @@ void set_at(toml::table& root, const std::string& path, Value value) {
     table = table->get_as<toml::table>(key);
   }
   table->insert_or_assign(path.substr(begin), value);
+}
+
+std::string quoted(const std::string& text) {
+  std::string literal = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') literal += '\\';
+    if (static_cast<unsigned char>(c) < 0x20)
+      literal += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      literal += c;
+  }
+  return literal + "\"";
+}
+
+std::string printed(const toml::node& node) {
+  if (const auto* text = node.as_string()) return quoted(text->get());
+  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
+  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+  if (const auto* number = node.as_floating_point()) {
+    const std::string text =
+        fmt::format("{}", number->get());  // shortest form that reads back to the same bits
+    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+  }
+  std::string list;
+  if (const auto* array = node.as_array())
+    for (const toml::node& entry : *array) list += (list.empty() ? "" : ", ") + printed(entry);
+  return "[" + list + "]";
+}
+
+/// Values first, then the sub-tables under their full names. (The library's own formatter has undefined
+/// behaviour for arrays of numbers below 0.1: it casts a negative logarithm to an unsigned width.)
+void print_table(std::string& text, const std::string& path, const toml::table& table) {
+  for (const auto& [key, value] : table)
+    if (!value.is_table()) text += std::string(key.str()) + " = " + printed(value) + "\n";
+  for (const auto& [key, value] : table) {
+    if (!value.is_table()) continue;
+    const std::string name = (path.empty() ? "" : path + ".") + std::string(key.str());
+    text += "\n[" + name + "]\n";
+    print_table(text, name, *value.as_table());
+  }
 }
 
 }  // namespace
@@ -261,9 +302,9 @@ void TomlTable::set(const std::string& path, int value) {
 }
 
 std::string TomlTable::print() const {
-  std::ostringstream out;
-  out << data_->table << '\n';
-  return out.str();
+  std::string text;
+  print_table(text, "", data_->table);
+  return text;
 }
 
 }  // namespace verification

@@ -1,5 +1,7 @@
 #include "verification/study/scheme_matrix.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -45,12 +47,22 @@ std::vector<MatrixEntry> read_matrix(TomlTable table) {
   const auto bases = names_of(table, "basis", mpm::basis_parts());
   const auto transfers = names_of(table, "transfer", mpm::transfer_parts());
   const auto steppings = names_of(table, "stepping", mpm::stepping_parts());
+  const double flip_fraction = table.number("flip_fraction", mpm::Scheme{}.flip_fraction);
   table.refuse_unknown_keys();
   for (const std::string& basis : bases)
     for (const std::string& transfer : transfers)
       for (const std::string& stepping : steppings)
-        entries.push_back({basis + "_" + transfer + "_" + stepping, basis, transfer, stepping});
+        entries.push_back(
+            {basis + "_" + transfer + "_" + stepping, basis, transfer, stepping, flip_fraction});
   return entries;
+}
+
+std::string MatrixEntry::toml() const {
+  std::string text = fmt::format("[scheme]\nbasis = \"{}\"\ntransfer = \"{}\"\nstepping = \"{}\"\n", basis,
+                                 transfer, stepping);
+  if (transfer == mpm::name(mpm::Scheme::Transfer::FlipBlend))
+    text += fmt::format("flip_fraction = {}\n", flip_fraction);
+  return text;
 }
 
 double formal_dt_exponent(const mpm::Scheme& scheme) {

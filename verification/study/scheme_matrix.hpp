@@ -12,6 +12,10 @@ namespace verification {
 struct MatrixEntry {
   std::string variant;                    ///< "cubic_full-mass_leapfrog"
   std::string basis, transfer, stepping;  ///< names
+  double flip_fraction = 0;               ///< flip-blend only
+
+  /// The entry as a TOML table [scheme].
+  [[nodiscard]] std::string toml() const;
 };
 
 /// Reads [matrix]. Throws ConfigError.

@@ -1,7 +1,5 @@
 #include "verification/study/study_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -105,10 +103,7 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
 void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
   if (study.matrix) {
     for (const MatrixEntry& entry : read_matrix(root.table("matrix"))) {
-      const TomlTable scheme =
-          TomlTable::from_text(fmt::format("[scheme]\nbasis = \"{}\"\ntransfer = \"{}\"\nstepping = \"{}\"\n",
-                                           entry.basis, entry.transfer, entry.stepping),
-                               "matrix");
+      const TomlTable scheme = TomlTable::from_text(entry.toml(), "matrix");
       study.variants.push_back(entry.variant);
       plan_runs(study, base.overlaid_with(scheme, "scheme " + entry.variant), entry.variant);
     }
