@@ -125,6 +125,8 @@ std::string html_study(const std::filesystem::path& dir, const ReportData& data,
   std::string section = fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", html_anchor(study.study),
                                     html_text(study.title.empty() ? study.study : study.title));
   if (!study.claim.empty()) section += fmt::format("<p><b>Claim:</b> {}</p>\n", html_text(study.claim));
+  if (!study.left_out.empty())
+    section += fmt::format("<p class=\"faint\">Left out of the model: {}.</p>\n", html_text(study.left_out));
   section += fmt::format("<p class=\"faint\">Study <code>{}</code>{}</p>\n", html_text(study.study),
                          study.suite.empty() ? "" : ", suite " + html_text(study.suite));
   const auto checks = checks_of(data.results, study.study);

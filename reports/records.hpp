@@ -12,6 +12,7 @@ namespace reports {
 /// studies.csv: what was asked.
 struct StudyRecord {
   std::string study, title, claim, suite;
+  std::string left_out = {};  ///< what its scenes did without, and the reader may want to know
 };
 
 /// runs.csv: one simulation.

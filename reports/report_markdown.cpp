@@ -34,6 +34,7 @@ std::string check_section(const Results& results) {
     if (checks.empty()) continue;
     text += fmt::format("\n### {}\n\n", markdown_text(study.title.empty() ? study.study : study.title));
     if (!study.claim.empty()) text += markdown_text(study.claim) + "\n\n";
+    if (!study.left_out.empty()) text += "Left out of the model: " + markdown_text(study.left_out) + ".\n\n";
     text += "| verdict | check | observed | bounds | reason for the bounds |\n|---|---|---|---|---|\n";
     for (const CheckRecord* check : checks) text += check_row(*check, false);
   }

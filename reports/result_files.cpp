@@ -15,7 +15,8 @@ constexpr auto study_columns = std::make_tuple(  //
     column("study", &StudyRecord::study),        //
     column("title", &StudyRecord::title),        //
     column("claim", &StudyRecord::claim),        //
-    column("suite", &StudyRecord::suite));
+    column("suite", &StudyRecord::suite),        //
+    column("left_out", &StudyRecord::left_out));
 
 constexpr auto run_columns = std::make_tuple(    //
     column("run", &RunRecord::run),              //

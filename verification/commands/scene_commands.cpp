@@ -67,7 +67,7 @@ int solve_command(const SceneOptions& options) {
   write_interchange(options.out, data);
 
   reports::Results results;
-  results.studies.push_back({study.name, study.title, study.claim, ""});
+  results.studies.push_back({study.name, study.title, study.claim, "", ""});
   results.runs.push_back(data.record);
   results.timings.push_back(data.timing);
   results.errors = data.errors;

@@ -54,6 +54,29 @@ RunData failed_run(const Study& study, const PlannedRun& plan, const std::string
   return data;
 }
 
+/// What the scenes of a study were declared not to need (DESIGN: model only what a scene needs).
+std::string left_out(const Study& study) {
+  const auto all = [&](auto&& holds) { return std::ranges::all_of(study.runs, holds); };
+  const auto any = [&](auto&& holds) { return std::ranges::any_of(study.runs, holds); };
+  const auto words = [&](auto&& holds, const std::string& what) {
+    return all(holds) ? what + "; " : any(holds) ? what + " (some variants); " : std::string();
+  };
+  std::string text =
+      words([](const PlannedRun& r) { return !r.scene.fluid.solver.pressure; }, "pressure and density");
+  text += words([](const PlannedRun& r) { return r.scene.discretisation.cells_along == 1; },
+                "variation along the flow (one periodic cell)");
+  text +=
+      words([](const PlannedRun& r) { return r.scene.fluid.label == "newtonian"; }, "shear rate (Newtonian)");
+  return text.empty() ? "nothing" : text.substr(0, text.size() - 2);
+}
+
+/// Figures in the order of their numbers, conclusions after them.
+int place_in_paper(const reports::ClaimRecord& claim) {
+  const std::size_t digit = claim.source.find_first_of("0123456789");
+  const int number = digit == std::string::npos ? 0 : std::stoi(claim.source.substr(digit));
+  return claim.source.starts_with("Fig") ? number : 1000 + number;
+}
+
 class SuiteRunner {
  public:
   SuiteRunner(const std::vector<Study>& studies, std::filesystem::path out, const SuiteListener& listener)
@@ -151,7 +174,7 @@ class SuiteRunner {
     for (std::size_t s = 0; s < studies_.size(); ++s) {
       if (remaining_[s] > 0) continue;
       const Study& study = studies_[s];
-      results.studies.push_back({study.name, study.title, study.claim, name(study.suite)});
+      results.studies.push_back({study.name, study.title, study.claim, name(study.suite), left_out(study)});
       for (const RunData& run : data_[s].runs) {
         results.runs.push_back(run.record);
         results.timings.push_back(run.timing);
@@ -164,6 +187,7 @@ class SuiteRunner {
       append(results.matrix, data_[s].matrix);
       append(results.figures, study.figures);
     }
+    std::ranges::stable_sort(results.claims, {}, place_in_paper);
     return results;
   }
 
