@@ -73,7 +73,7 @@ std::vector<double> read_outputs(TomlTable& table) {
   return outputs;
 }
 
-mpm::TimeStepRule read_time_step(TomlTable& table) {
+mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme) {
   mpm::TimeStepRule rule;
   if (table.has("dt")) {
     rule.dt = table.positive("dt");
@@ -82,7 +82,9 @@ mpm::TimeStepRule read_time_step(TomlTable& table) {
     return rule;
   }
   rule.cfl_acoustic = table.positive("cfl_acoustic", rule.cfl_acoustic);
-  rule.cfl_viscous = table.positive("cfl_viscous", rule.cfl_viscous);
+  // Full mass is the stiffest (limits in solver/time_step.hpp).
+  const bool full_mass = scheme.transfer == mpm::Scheme::Transfer::FullMass;
+  rule.cfl_viscous = table.positive("cfl_viscous", full_mass ? 0.5 * rule.cfl_viscous : rule.cfl_viscous);
   return rule;
 }
 
@@ -132,7 +134,7 @@ SceneConfig read_scene_config(TomlTable root) {
     time.fail("start", "needs a flow with an exact solution");
   config.outputs = read_outputs(time);
   if (config.outputs.front() <= config.start) time.fail("outputs", "must lie beyond time.start");
-  config.time_step = read_time_step(time);
+  config.time_step = read_time_step(time, config.scheme);
   config.history_samples = time.integer("history_samples", 100);
   if (config.history_samples < 1) time.fail("history_samples", "must be at least 1");
   time.refuse_unknown_keys();
