@@ -126,7 +126,7 @@ struct MatrixRecord {
   double observed = 0;                ///< L2 order at the last output
   double ci_lower = 0, ci_upper = 0;  ///< its 95 % confidence interval
   double smallest_error = 0;          ///< reached on the ladder, relative [-]
-  std::string verdict;                ///< "pass", "fail", or "not an order" with its reason
+  std::string verdict;                ///< "pass", "fail", or "grows as dt shrinks" (lossy: see reason)
   std::string reason;
 };
 

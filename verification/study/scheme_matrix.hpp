@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "verification/convergence/order.hpp"
 #include "verification/study/run_data.hpp"
 
 namespace verification {
@@ -28,6 +29,14 @@ double formal_dt_exponent(const mpm::Scheme& scheme);
 /// space with dt ~ h^k the smallest of p, q k and r - k; in time q, or NaN where the loss hides it (the error
 /// then grows as dt shrinks, and no order in dt exists).
 double expected_order(const mpm::Scheme& scheme, Axis axis, double dt_exponent, Location location);
+
+/// Slope of ln(error against the exact solution) on ln dt, and the smallest such error: what a lossy scheme
+/// shows in place of an order.
+struct ExactErrorSlope {
+  OrderEstimate estimate;
+  double smallest_error;
+};
+ExactErrorSlope exact_error_slope(const StudyData& data, const reports::OrderRecord& order);
 
 /// Rows of the order matrix that a study with a [matrix] fills; verdicts are those of its "formal-order"
 /// checks.
