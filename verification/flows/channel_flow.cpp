@@ -11,10 +11,6 @@
 namespace verification {
 namespace {
 
-Vec2 unit(int axis) {
-  return axis == 0 ? Vec2(1, 0) : Vec2(0, 1);
-}
-
 class ContinuousChannel final : public ExactField {
  public:
   ContinuousChannel(int axis, std::shared_ptr<const reference::ChannelSolution> solution)

@@ -18,6 +18,11 @@ struct Discretisation {
   int particles_across = 2, particles_along = 2;  ///< a cell
 };
 
+/// Unit vector along x (0) or y (1).
+inline Vec2 unit(int axis) {
+  return axis == 0 ? Vec2(1, 0) : Vec2(0, 1);
+}
+
 /// Where a velocity was taken: on the grid field or at a particle.
 enum class Location { Grid, Particles };
 std::string name(Location location);

@@ -5,10 +5,6 @@
 namespace verification {
 namespace {
 
-Vec2 unit(int axis) {
-  return axis == 0 ? Vec2(1, 0) : Vec2(0, 1);
-}
-
 double wavenumber(const WaveParameters& parameters) {
   return 2 * std::numbers::pi / parameters.wavelength;
 }

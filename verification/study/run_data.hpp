@@ -24,6 +24,10 @@ struct RunData {
   [[nodiscard]] bool completed() const { return record.status == "completed"; }
 };
 
+/// The row of runs.csv for a planned run that took `steps` and ended with `status`.
+reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long steps,
+                                const std::string& status);
+
 /// What a study's runs amount to.
 struct StudyData {
   const Study* study = nullptr;

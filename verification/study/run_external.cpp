@@ -82,12 +82,8 @@ RunData run_external(const Study& study, const PlannedRun& plan, const std::file
     const auto rows = exact_lines(scene, *exact);
     data.profile.insert(data.profile.end(), rows.begin(), rows.end());
   }
-  data.record = {plan.run,          study.name,
-                 scene.flow_name,   scene.fluid.label,
-                 "external",        "external",
-                 "external",        scene.discretisation.cells,
-                 scene.particles(), scene.segments.front().dt,
-                 scene.steps(),     "completed"};
+  data.record = describe_run(study, plan, scene.steps(), "completed");
+  data.record.basis = data.record.transfer = data.record.stepping = "external";
   data.timing = {plan.run, wall, nan};
   return data;
 }

@@ -138,20 +138,10 @@ RunData run_simulation(const Study& study, const PlannedRun& plan) {
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   const auto particles = static_cast<long>(simulation->particles().size());
-  data.record = {plan.run,
-                 study.name,
-                 scene.flow_name,
-                 scene.fluid.label,
-                 mpm::name(scene.scheme.basis),
-                 mpm::name(scene.scheme.transfer),
-                 mpm::name(scene.scheme.stepping),
-                 scene.discretisation.cells,
-                 particles,
-                 scene.segments.front().dt,
-                 outcome.steps,
-                 outcome.breakdown
-                     ? fmt::format("diverged at t = {:.6g} s: {}", outcome.time, *outcome.breakdown)
-                     : "completed"};
+  data.record = describe_run(
+      study, plan, outcome.steps,
+      outcome.breakdown ? fmt::format("diverged at t = {:.6g} s: {}", outcome.time, *outcome.breakdown)
+                        : "completed");
   data.timing = {plan.run, wall, static_cast<double>(particles) * static_cast<double>(outcome.steps) / wall};
   if (exact && study.comparison == Comparison::Exact) {
     const auto rows = exact_lines(scene, *exact);

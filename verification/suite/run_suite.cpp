@@ -37,19 +37,7 @@ std::vector<Job> longest_first(const std::vector<Study>& studies) {
 RunData failed_run(const Study& study, const PlannedRun& plan, const std::string& why) {
   RunData data;
   data.plan = &plan;
-  const SceneConfig& scene = plan.scene;
-  data.record = {plan.run,
-                 study.name,
-                 scene.flow_name,
-                 scene.fluid.label,
-                 mpm::name(scene.scheme.basis),
-                 mpm::name(scene.scheme.transfer),
-                 mpm::name(scene.scheme.stepping),
-                 scene.discretisation.cells,
-                 scene.particles(),
-                 scene.segments.front().dt,
-                 0,
-                 "failed: " + why};
+  data.record = describe_run(study, plan, 0, "failed: " + why);
   data.timing.run = plan.run;
   return data;
 }
