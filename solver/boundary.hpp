@@ -8,8 +8,9 @@
 namespace mpm {
 
 /// The nodes whose functions do not vanish on a wall: the first and the last along a direction with walls,
-/// for every basis here. Their values are the field's values on the wall, so the wall prescribes them. Where
-/// two walls meet the node belongs to the bottom or top wall.
+/// for every basis here. Their values are the field's values on the wall, so the wall prescribes them. In
+/// a corner each wall prescribes the velocity normal to it, so that nothing is pushed through either (a lid
+/// does not drag the corner through the wall beside it).
 class WallNodes {
  public:
   WallNodes(const Scene& scene, const Grid& grid) : scene_(scene), is_wall_(grid.size(), 0) {
@@ -17,10 +18,11 @@ class WallNodes {
     for (int j = 0; j < ny; ++j) {
       for (int i = 0; i < nx; ++i) {
         const auto node = static_cast<std::size_t>(j * nx + i);
-        if (!grid.y.periodic && (j == 0 || j == ny - 1))
-          nodes_.push_back({node, j == 0 ? Edge::Bottom : Edge::Top});
-        else if (!grid.x.periodic && (i == 0 || i == nx - 1))
-          nodes_.push_back({node, i == 0 ? Edge::Left : Edge::Right});
+        const bool on_x = !grid.x.periodic && (i == 0 || i == nx - 1);
+        const bool on_y = !grid.y.periodic && (j == 0 || j == ny - 1);
+        if (!on_x && !on_y) continue;
+        const Edge across_x = i == 0 ? Edge::Left : Edge::Right, across_y = j == 0 ? Edge::Bottom : Edge::Top;
+        nodes_.push_back({node, on_x ? across_x : across_y, on_y ? across_y : across_x});
       }
     }
     for (const Node& n : nodes_) is_wall_[n.index] = 1;
@@ -30,21 +32,18 @@ class WallNodes {
 
   /// Sets the wall's velocity at time t on its nodes.
   void impose_velocity(VectorField& velocity, double t) const {
-    for (const Node& n : nodes_) velocity[n.index] = scene_.side(n.edge).velocity(t);
+    for (const Node& n : nodes_) velocity[n.index] = velocity_of(n, t);
   }
 
   /// Sets the wall's prescribed acceleration dV/dt on its nodes (not the difference to the mapped velocity,
   /// which drops the particles to order 1.5).
   void impose_acceleration(VectorField& acceleration, double t) const {
-    for (const Node& n : nodes_) acceleration[n.index] = scene_.side(n.edge).acceleration(t);
+    for (const Node& n : nodes_) acceleration[n.index] = acceleration_of(n, t);
   }
 
   /// Sets the wall's mean acceleration (V(t + dt) - V(t))/dt, which brings its nodes to V(t + dt) exactly.
   void impose_mean_acceleration(VectorField& acceleration, double t, double dt) const {
-    for (const Node& n : nodes_) {
-      const Side& side = scene_.side(n.edge);
-      acceleration[n.index] = (side.velocity(t + dt) - side.velocity(t)) / dt;
-    }
+    for (const Node& n : nodes_) acceleration[n.index] = (velocity_of(n, t + dt) - velocity_of(n, t)) / dt;
   }
 
   /// Force that the walls exert on the fluid per unit depth [N/m] when nodes with lumped mass are given an
@@ -61,7 +60,7 @@ class WallNodes {
     for (const Node& n : nodes_) {
       const Vec2 fluid =
           scene_.initial_velocity ? scene_.initial_velocity(grid.control_point(n.index)) : Vec2(Vec2::Zero());
-      jump[n.index] = scene_.side(n.edge).velocity(0) - fluid;
+      jump[n.index] = velocity_of(n, 0) - fluid;
     }
     return jump;
   }
@@ -69,8 +68,16 @@ class WallNodes {
  private:
   struct Node {
     std::size_t index;
-    Edge edge;
+    Edge x_from, y_from;  // the walls that give the x and y components; the same one but in corners
   };
+
+  [[nodiscard]] Vec2 velocity_of(const Node& n, double t) const {
+    return {scene_.side(n.x_from).velocity(t).x(), scene_.side(n.y_from).velocity(t).y()};
+  }
+  [[nodiscard]] Vec2 acceleration_of(const Node& n, double t) const {
+    return {scene_.side(n.x_from).acceleration(t).x(), scene_.side(n.y_from).acceleration(t).y()};
+  }
+
   const Scene& scene_;
   std::vector<Node> nodes_;
   std::vector<char> is_wall_;
