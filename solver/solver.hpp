@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "solver/boundary.hpp"
 #include "solver/implicit_viscosity.hpp"

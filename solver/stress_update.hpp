@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <variant>
 
 #include "solver/particles.hpp"
 #include "solver/pressure.hpp"
