@@ -68,8 +68,12 @@ struct Scene {
   Seeding seeding;
   std::array<Side, 4> sides;  ///< indexed by Edge
   Fluid fluid;
-  std::function<Vec2(double)> body_acceleration;      ///< uniform, at time t [m/s2]; none when empty
-  std::function<Vec2(const Vec2&)> initial_velocity;  ///< [m/s]; at rest when empty
+  std::function<Vec2(double)> body_acceleration;  ///< uniform, at time t [m/s2]; none when empty
+  /// Acceleration that varies in space [m/s2], written for all points [m] at time t in one call; none when
+  /// empty.
+  std::function<void(const VectorField& points, double t, VectorField& acceleration)> acceleration_field;
+  std::function<Vec2(const Vec2&)> initial_velocity;   ///< [m/s]; at rest when empty
+  std::function<double(const Vec2&)> initial_density;  ///< [kg/m3]; the reference density when empty
 
   [[nodiscard]] const Side& side(Edge e) const { return sides[static_cast<std::size_t>(e)]; }
   Side& side(Edge e) { return sides[static_cast<std::size_t>(e)]; }

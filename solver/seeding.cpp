@@ -91,8 +91,9 @@ Particles seed_particles(const Scene& scene) {
                              scene.periodic(axis));
       particles.position.push_back(x);
       particles.velocity.push_back(scene.initial_velocity ? scene.initial_velocity(x) : Vec2(Vec2::Zero()));
-      particles.mass.push_back(scene.fluid.density * along_x.length[i] * along_y.length[j]);
-      particles.density.push_back(scene.fluid.density);
+      const double density = scene.initial_density ? scene.initial_density(x) : scene.fluid.density;
+      particles.mass.push_back(density * along_x.length[i] * along_y.length[j]);
+      particles.density.push_back(density);
       particles.stress.push_back(Mat2::Zero());
     }
   }

@@ -16,8 +16,8 @@ struct CellPoints {
 /// (Abramowitz and Stegun 25.4.30).
 CellPoints cell_points(Seeding::Rule rule, int n);
 
-/// Particles in every cell by the scene's seeding, at reference density and with the scene's initial
-/// velocity. Row by row from the bottom, left to right: the order fixes every sum.
+/// Particles in every cell by the scene's seeding, with the scene's initial density and velocity. Row by row
+/// from the bottom, left to right: the order fixes every sum.
 Particles seed_particles(const Scene& scene);
 
 /// Gradient of the initial velocity at every particle [1/s], by central differences over 1e-4 of a cell: what

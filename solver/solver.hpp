@@ -224,7 +224,7 @@ class Solver final : public Simulation {
     return total;
   }
 
-  /// f_i = m_i b - sum_p (m_p/rho_p) sigma_p grad N_ip (paper Eq. 17).
+  /// f_i = m_i b + sum_p N_ip m_p b_p - sum_p (m_p/rho_p) sigma_p grad N_ip (paper Eq. 17).
   void forces(double t) {
     const Vec2 b = scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero());
     body_force_ = Vec2::Zero();
@@ -232,10 +232,23 @@ class Solver final : public Simulation {
       grid_.force[i] = grid_.mass[i] * b;
       body_force_ += grid_.force[i];
     }
+    if (scene_.acceleration_field) add_acceleration_field(t);
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       const Mat2 volume_stress = (particles_.mass[p] / particles_.density[p]) * particles_.stress[p];
       Stencil<Basis>(grid_, particles_.position[p]).gradients([&](std::size_t i, const Vec2& dn) {
         grid_.force[i] -= volume_stress * dn;
+      });
+    }
+  }
+
+  void add_acceleration_field(double t) {
+    particle_acceleration_.resize(particles_.size());
+    scene_.acceleration_field(particles_.position, t, particle_acceleration_);
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      const Vec2 force = particles_.mass[p] * particle_acceleration_[p];
+      body_force_ += force;
+      Stencil<Basis>(grid_, particles_.position[p]).values([&](std::size_t i, double n) {
+        grid_.force[i] += n * force;
       });
     }
   }
@@ -338,7 +351,7 @@ class Solver final : public Simulation {
   StencilTable table_;
   std::unique_ptr<StressUpdate> update_stress_;
   std::unique_ptr<ImplicitViscosity> implicit_viscosity_;
-  VectorField start_velocity_, stage_velocity_;
+  VectorField start_velocity_, stage_velocity_, particle_acceleration_;
   Vec2 body_force_ = Vec2::Zero(), impulse_ = Vec2::Zero();
   std::optional<std::string> breakdown_;
 };

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "solver/simulation.hpp"
@@ -126,6 +125,36 @@ TEST_CASE("the same scene gives the same bits") {
     return simulation->particles().velocity;
   };
   CHECK(run_once() == run_once());
+}
+
+TEST_CASE("a uniform acceleration does the same whether it is given as uniform or as a field") {
+  Scene uniform = periodic_box(3, 4), field = uniform;
+  uniform.body_acceleration = [](double t) { return Vec2(2e-2 * t, -1e-3); };
+  field.acceleration_field = [](const VectorField&, double t, VectorField& b) {
+    std::fill(b.begin(), b.end(), Vec2(2e-2 * t, -1e-3));
+  };
+  Scheme scheme;
+  scheme.basis = GENERATE(Scheme::Basis::Linear, Scheme::Basis::Cubic);
+  const auto expected = make_simulation(uniform, scheme), observed = make_simulation(field, scheme);
+  REQUIRE_FALSE(run_to(*expected, uniform, 1e-5, 1e-3).breakdown);
+  REQUIRE_FALSE(run_to(*observed, field, 1e-5, 1e-3).breakdown);
+  const Vec2 momentum = expected->totals().momentum;
+  REQUIRE(momentum.norm() > 0);
+  // Round-off of 100 steps.
+  CHECK((observed->totals().momentum - momentum).norm() < 1e-13 * momentum.norm());
+  CHECK((observed->totals().impulse - momentum).norm() < 1e-13 * momentum.norm());
+}
+
+TEST_CASE("particles start with the scene's density, and the mass that fills their share of a cell") {
+  Scene scene = periodic_box(2, 4);
+  scene.initial_density = [](const Vec2& x) { return 1000 + 1e4 * x.y(); };
+  const auto simulation = make_simulation(scene, {});
+  const Particles& p = simulation->particles();
+  const double share = scene.cell_size(0) * scene.cell_size(1) / 4;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    CHECK(p.density[i] == 1000 + 1e4 * p.position[i].y());
+    CHECK(p.mass[i] == Approx(p.density[i] * share).epsilon(1e-14));
+  }
 }
 
 TEST_CASE("a lid drives its cavity without pushing anything through the walls") {
