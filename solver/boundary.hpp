@@ -28,6 +28,12 @@ class WallNodes {
     for (const Node& n : nodes_) is_wall_[n.index] = 1;
   }
 
+  struct Node {
+    std::size_t index;
+    Edge x_from, y_from;  ///< the walls that give the x and y components; the same one but in corners
+  };
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+
   [[nodiscard]] bool is_wall(std::size_t node) const { return is_wall_[node] != 0; }
 
   /// Sets the wall's velocity at time t on its nodes.
@@ -66,11 +72,6 @@ class WallNodes {
   }
 
  private:
-  struct Node {
-    std::size_t index;
-    Edge x_from, y_from;  // the walls that give the x and y components; the same one but in corners
-  };
-
   [[nodiscard]] Vec2 velocity_of(const Node& n, double t) const {
     return {scene_.side(n.x_from).velocity(t).x(), scene_.side(n.y_from).velocity(t).y()};
   }

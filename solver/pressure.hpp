@@ -1,6 +1,10 @@
 #pragma once
 
+#include <type_traits>
+
 namespace mpm {
+
+// A pressure policy works on one particle, or on an array of them.
 
 /// Tait equation of state P = K[(rho/rho0)^7 - 1] (paper Eq. 23) with density following the dilatation.
 struct TaitPressure {
@@ -9,12 +13,16 @@ struct TaitPressure {
   double inverse_reference_density;  ///< 1/rho0 [m3/kg]
 
   /// rho_new = rho/(1 + dt tr D) (below the paper's Eq. 23, misprint corrected) [kg/m3]
-  [[nodiscard]] double advance_density(double density, double dilatation_rate, double dt) const {
+  template <class Real>
+    requires(!std::is_integral_v<Real>)
+  [[nodiscard]] Real advance_density(const Real& density, const Real& dilatation_rate, double dt) const {
     return density / (1 + dt * dilatation_rate);
   }
-  [[nodiscard]] double pressure(double density) const {
-    const double r = density * inverse_reference_density;
-    const double r3 = r * r * r;
+  template <class Real>
+    requires(!std::is_integral_v<Real>)
+  [[nodiscard]] Real pressure(const Real& density) const {
+    const Real r = density * inverse_reference_density;
+    const Real r3 = r * r * r;
     return bulk_modulus * (r3 * r3 * r - 1);
   }
 };

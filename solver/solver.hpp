@@ -69,15 +69,7 @@ class Solver final : public Simulation {
     return gradients;
   }
 
-  [[nodiscard]] Totals totals() const override {
-    Totals sum{0, Vec2::Zero(), impulse_, 0};
-    for (std::size_t p = 0; p < particles_.size(); ++p) {
-      sum.mass += particles_.mass[p];
-      sum.momentum += particles_.mass[p] * particles_.velocity[p];
-      sum.kinetic_energy += 0.5 * particles_.mass[p] * particles_.velocity[p].squaredNorm();
-    }
-    return sum;
-  }
+  [[nodiscard]] Totals totals() const override { return totals_of(particles_, impulse_); }
 
  private:
   using Mass = typename Transfer::Mass;
