@@ -23,10 +23,6 @@ double UniformDilatation::velocity(double x, double t) const {
   return parameters_.rate * x / stretch(t);
 }
 
-double UniformDilatation::local_acceleration(double x, double t) const {
-  return -parameters_.rate * velocity(x, t) / stretch(t);
-}
-
 double UniformDilatation::density(double t) const {
   return parameters_.reference_density / stretch(t);
 }

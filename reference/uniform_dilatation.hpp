@@ -22,8 +22,6 @@ class UniformDilatation {
   [[nodiscard]] double stretch(double t) const;
   /// u(x, t) [m/s].
   [[nodiscard]] double velocity(double x, double t) const;
-  /// du/dt at a fixed place x [m/s2], what a wall there that moves with the fluid has: -a^2 x/(1 + a t)^2.
-  [[nodiscard]] double local_acceleration(double x, double t) const;
   /// rho(t) [kg/m3].
   [[nodiscard]] double density(double t) const;
 
