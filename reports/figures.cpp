@@ -117,6 +117,8 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
     figure = history_figure(dir, record, results);
   } else if (record.kind == "shear-rate" || record.kind == "viscosity") {
     figure = shear_figure(dir, record, results);
+  } else if (record.kind == "pressure") {
+    figure = pressure_figure(dir, record, results);
   } else if (record.kind == "convergence") {
     figure = convergence_figure(record, results);
   } else if (record.kind == "work-precision") {
@@ -124,7 +126,7 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
   } else {
     throw IoError(
         fmt::format("figures.csv: figure '{}' is of unknown kind '{}'; known are profiles, history, "
-                    "convergence, work-precision, shear-rate, viscosity",
+                    "convergence, work-precision, shear-rate, viscosity, pressure",
                     record.figure, record.kind));
   }
   figure.name = record.figure;

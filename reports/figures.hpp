@@ -28,6 +28,9 @@ Figure history_figure(const std::filesystem::path& dir, const FigureRecord& reco
 /// Kinds "shear-rate" and "viscosity": across a channel at one time, one colour a run (the paper's Figs 4, 5,
 /// 9, 10).
 Figure shear_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
+
+/// Kind "pressure": pressure of the particles across the flow at one time, one colour a run.
+Figure pressure_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
 Figure convergence_figure(const FigureRecord& record, const Results& results);
 Figure work_precision_figure(const FigureRecord& record, const Results& results);
 

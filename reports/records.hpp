@@ -107,6 +107,16 @@ struct ShearRow {
   double viscosity_ratio = 0;  ///< mu/mu_0 [-]
 };
 
+/// profiles/<run>.state.csv: density and pressure where the flow has an exact density. location: "particles"
+/// or "exact" (a fine line, numerical columns NaN).
+struct StateRow {
+  double t = 0;  ///< [s]
+  std::string location;
+  double x = 0, y = 0;                      ///< [m]
+  double density = 0, density_exact = 0;    ///< [kg/m3]
+  double pressure = 0, pressure_exact = 0;  ///< [Pa], by the equation of state
+};
+
 /// claims.csv: somebody's statement, and what became of it here.
 struct ClaimRecord {
   std::string claim, study;
@@ -134,15 +144,16 @@ struct MatrixRecord {
 struct FigureRecord {
   std::string figure;  ///< file stem, unique
   std::string study;
-  std::string kind;    ///< "profiles", "history", "convergence", "work-precision", "shear-rate", "viscosity"
-  std::string title;   ///< the claim that the figure shows
-  std::string runs;    ///< runs to draw (profiles, history, work-precision); "" = all of the study
-  std::string labels;  ///< a legend entry for each run; "" = run names
-  std::string across;  ///< coordinate of profiles: "x" or "y"
-  std::string component;                                ///< velocity component of profiles: "u" or "v"
-  std::string location;                                 ///< "grid", "particles", or "grid;particles"
-  std::string norm;                                     ///< convergence, work-precision: "l1", "l2", "linf"
-  double t = std::numeric_limits<double>::quiet_NaN();  ///< shear-rate, viscosity: the time shown [s]
+  /// "profiles", "history", "convergence", "work-precision", "shear-rate", "viscosity", "pressure"
+  std::string kind;
+  std::string title;      ///< the claim that the figure shows
+  std::string runs;       ///< runs to draw (profiles, history, work-precision); "" = all of the study
+  std::string labels;     ///< a legend entry for each run; "" = run names
+  std::string across;     ///< coordinate of profiles: "x" or "y"
+  std::string component;  ///< velocity component of profiles: "u" or "v"
+  std::string location;   ///< "grid", "particles", or "grid;particles"
+  std::string norm;       ///< convergence, work-precision: "l1", "l2", "linf"
+  double t = std::numeric_limits<double>::quiet_NaN();  ///< shear-rate, viscosity, pressure: the time [s]
 };
 
 /// The content of one result directory, profiles and histories excepted (they are read run by run).

@@ -131,6 +131,16 @@ constexpr auto shear_columns = std::make_tuple(   //
     column("shear_rate", &ShearRow::shear_rate),  //
     column("viscosity_ratio", &ShearRow::viscosity_ratio));
 
+constexpr auto state_columns = std::make_tuple(         //
+    column("t", &StateRow::t),                          //
+    column("location", &StateRow::location),            //
+    column("x", &StateRow::x),                          //
+    column("y", &StateRow::y),                          //
+    column("density", &StateRow::density),              //
+    column("density_exact", &StateRow::density_exact),  //
+    column("pressure", &StateRow::pressure),            //
+    column("pressure_exact", &StateRow::pressure_exact));
+
 constexpr auto profile_columns = std::make_tuple(  //
     column("t", &ProfileRow::t),                   //
     column("location", &ProfileRow::location),     //
@@ -169,7 +179,7 @@ bool is_plain_name(const std::string& name) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' ||
            c == '_' || c == '=' || c == '-';
   };
-  const bool other_file = name.ends_with(".history") || name.ends_with(".shear");
+  const bool other_file = name.ends_with(".history") || name.ends_with(".shear") || name.ends_with(".state");
   // A file name may have 255 bytes; the ending and the temporary file's number need some of them.
   return !name.empty() && name.size() <= 200 && name.front() != '.' && !other_file &&
          std::all_of(name.begin(), name.end(), plain);
@@ -179,7 +189,7 @@ const std::string& require_plain_name(const char* what, const std::string& name)
   if (is_plain_name(name)) return name;
   throw IoError(
       fmt::format("{} name '{}' cannot be a file name; use up to 200 letters, digits and . _ = -, no "
-                  "leading dot, no '.history' or '.shear' at the end",
+                  "leading dot, no '.history', '.shear' or '.state' at the end",
                   what, name));
 }
 
@@ -245,6 +255,17 @@ void write_shear(const std::filesystem::path& dir, const std::string& run,
   const auto path = profile_path(dir, run, ".shear.csv");
   ensure_directory(path.parent_path());
   write_csv(path, shear_columns, rows);
+}
+
+std::vector<StateRow> read_state(const std::filesystem::path& dir, const std::string& run) {
+  return read_csv(profile_path(dir, run, ".state.csv"), state_columns);
+}
+
+void write_state(const std::filesystem::path& dir, const std::string& run,
+                 const std::vector<StateRow>& rows) {
+  const auto path = profile_path(dir, run, ".state.csv");
+  ensure_directory(path.parent_path());
+  write_csv(path, state_columns, rows);
 }
 
 }  // namespace reports

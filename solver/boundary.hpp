@@ -60,13 +60,14 @@ class WallNodes {
     return sum;
   }
 
-  /// An impulsive start: by how much wall nodes jump from the initial field to the wall's velocity at t = 0.
+  /// An impulsive start: by how much wall nodes jump from the initial field to the wall's velocity at
+  /// that time.
   [[nodiscard]] VectorField initial_jump(const Grid& grid) const {
     VectorField jump(grid.size(), Vec2::Zero());
     for (const Node& n : nodes_) {
       const Vec2 fluid =
           scene_.initial_velocity ? scene_.initial_velocity(grid.control_point(n.index)) : Vec2(Vec2::Zero());
-      jump[n.index] = velocity_of(n, 0) - fluid;
+      jump[n.index] = velocity_of(n, scene_.start) - fluid;
     }
     return jump;
   }

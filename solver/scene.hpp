@@ -72,6 +72,7 @@ struct Scene {
   /// Acceleration that varies in space [m/s2], written for all points [m] at time t in one call; none when
   /// empty.
   std::function<void(const VectorField& points, double t, VectorField& acceleration)> acceleration_field;
+  double start = 0;                                    ///< time at which the initial state stands [s]
   std::function<Vec2(const Vec2&)> initial_velocity;   ///< [m/s]; at rest when empty
   std::function<double(const Vec2&)> initial_density;  ///< [kg/m3]; the reference density when empty
 

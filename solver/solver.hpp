@@ -173,19 +173,19 @@ class Solver final : public Simulation {
     close_drift(t + dt, dt / 2);
   }
 
-  /// Brings the walls' velocity at t = 0 into the particles. Projections that hand particles the grid's
+  /// Brings the walls' velocity at the start into the particles. Projections that hand particles the grid's
   /// velocity do it by themselves; others give them the wall nodes' share of the jump, as FLIP hands them
   /// every later change of a node.
   void start() {
     if constexpr (std::is_same_v<Mass, ConsistentMass>) {
-      map_velocity(0, grid_, grid_.velocity, mass_, table_);
+      map_velocity(scene_.start, grid_, grid_.velocity, mass_, table_);
       grid_to_particles(0);
     } else {
       if constexpr (std::is_same_v<Transfer, Apic>) particles_.affine = initial_gradients(scene_, particles_);
       const VectorField jump = walls_.initial_jump(grid_);
       for (std::size_t p = 0; p < particles_.size(); ++p)
         transfer_.template take_jump<Basis>(grid_, jump, particles_, p);
-      map_velocity(0, grid_, grid_.velocity, mass_, table_);
+      map_velocity(scene_.start, grid_, grid_.velocity, mass_, table_);
     }
   }
 

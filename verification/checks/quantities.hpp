@@ -21,6 +21,16 @@ struct Quantity {
 ///   shear-rate-rise  smallest increase from cell to cell, resting plate to moving plate, over the largest
 ///   rate [1] shear-rate-spread   the same from the middle to either plate [1] shear-rate-asymmetry   largest
 ///   |rate(y) - rate(H - y)| over the largest rate [1]
+///   period-error, decay-error   of a free oscillation at the probe, fitted to its history: period over the
+///   exact one minus 1, decay rate over the exact one minus 1 [1]
+///   amplitude-error, phase-error   of a driven oscillation at the probe over its last period: amplitude over
+///   the exact one minus 1 [1], phase minus the exact one, positive when early [rad]
+///   pressure-error   root mean square over the particles at a time, relative to the flow's pressure scale
+///   [1] density-error    largest |rho - exact|/exact over the particles at a time [1] path-error largest
+///   distance of a particle from its exact place at a time [cells] grid-error, particle-error   relative L2
+///   error of velocity at a time [1] largest-speed    largest root mean square velocity of the particles over
+///   the history, relative to the velocity scale [1] speed-growth     the same in the second half of the
+///   history over that in the first [1]
 const std::vector<std::string>& quantity_names();
 bool needs_time(const std::string& quantity);
 bool needs_place(const std::string& quantity);

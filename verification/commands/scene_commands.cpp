@@ -64,6 +64,7 @@ int solve_command(const SceneOptions& options) {
   reports::write_profile(options.out, data.record.run, data.profile);
   reports::write_history(options.out, data.record.run, data.history);
   if (!data.shear.empty()) reports::write_shear(options.out, data.record.run, data.shear);
+  if (!data.state.empty()) reports::write_state(options.out, data.record.run, data.state);
   write_interchange(options.out, data);
 
   reports::Results results;
@@ -102,6 +103,8 @@ int reference_command(const SceneOptions& options) {
   reports::write_profile(options.out, study.name, exact_lines(scene, *exact));
   if (const auto shear = exact_shear(scene, *exact); !shear.empty())
     reports::write_shear(options.out, study.name, shear);
+  if (const auto state = exact_state(scene, *exact); !state.empty())
+    reports::write_state(options.out, study.name, state);
   fmt::print("{}: {}\n", study.name, exact->description());
   fmt::print("profiles at {} times: {}\n", scene.outputs.size(),
              (options.out / "profiles" / (study.name + ".csv")).string());

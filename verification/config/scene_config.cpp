@@ -134,14 +134,17 @@ SceneConfig read_scene_config(TomlTable root) {
     time.fail("start", "needs a flow with an exact solution");
   config.outputs = read_outputs(time);
   if (config.outputs.front() <= config.start) time.fail("outputs", "must lie beyond time.start");
+  if (config.outputs.back() >= config.flow->latest())
+    time.fail("end", "must lie before the end of the solution: the flow collapses at its 1/rate");
   config.time_step = read_time_step(time, config.scheme);
   config.history_samples = time.integer("history_samples", 100);
   if (config.history_samples < 1) time.fail("history_samples", "must be at least 1");
   time.refuse_unknown_keys();
   root.refuse_unknown_keys();
-  config.scene = config.flow->scene(config.discretisation);
-  config.scene.seeding = seeding;
   try {
+    config.scene = config.flow->scene(config.discretisation);
+    config.scene.seeding = seeding;
+    config.scene.start = config.start;
     config.scene.validate();
     config.segments = mpm::plan_segments(config.time_step, config.scene, config.outputs, config.start);
   } catch (const mpm::SceneError& error) {

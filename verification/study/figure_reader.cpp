@@ -1,6 +1,7 @@
 #include "verification/study/figure_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace verification {
 namespace {
@@ -17,8 +18,8 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
   reports::FigureRecord figure;
   figure.study = study.name;
   figure.kind = table.text("kind");
-  static const std::vector<std::string> kinds = {"profiles",       "history",    "convergence",
-                                                 "work-precision", "shear-rate", "viscosity"};
+  static const std::vector<std::string> kinds = {"profiles",   "history",   "convergence", "work-precision",
+                                                 "shear-rate", "viscosity", "pressure"};
   if (std::ranges::count(kinds, figure.kind) == 0) table.fail("kind", "must be one of: " + joined(kinds));
   figure.title = table.text("title");
   figure.norm = table.text("norm", "l2");
@@ -38,13 +39,16 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
     runs.push_back(last->run);
   }
   const bool shear = figure.kind == "shear-rate" || figure.kind == "viscosity";
-  if (shear) {
+  const bool pressure = figure.kind == "pressure";
+  if (shear || pressure) {
     figure.t = table.number("t");
     if (std::ranges::count(last->scene.outputs, figure.t) == 0)
       table.fail("t", "is no output time of the study");
-    if (!last->scene.flow->has_shear_profile()) table.fail("kind", "is for channels");
+    if (pressure && !std::isfinite(last->scene.flow->pressure_scale()))
+      table.fail("kind", "is for flows with an exact pressure");
+    if (shear && !last->scene.flow->has_shear_profile()) table.fail("kind", "is for channels");
   }
-  if (shear || figure.kind == "profiles" || figure.kind == "history") {
+  if (shear || pressure || figure.kind == "profiles" || figure.kind == "history") {
     if (figure.kind == "profiles" && runs.size() > 1)
       table.fail("variants", "a profile figure shows one variant");
     figure.runs = joined(runs);

@@ -6,12 +6,23 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/tait_column.hpp"
+#include "solver/pressure.hpp"
 #include "solver/simulation.hpp"
 
 namespace verification {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A row of the exact density and of the pressure that goes with it; numerical columns NaN.
+reports::StateRow state_at(const SceneConfig& scene, double t, const std::string& location, const Vec2& x,
+                           double exact_density) {
+  const mpm::Fluid& fluid = scene.fluid.solver;
+  return {
+      t,   location,      x.x(), x.y(),
+      nan, exact_density, nan,   reference::tait_pressure(exact_density, fluid.bulk_modulus, fluid.density)};
+}
 
 /// Takes samples of a running simulation.
 class Recorder {
@@ -22,6 +33,7 @@ class Recorder {
         exact_(exact),
         data_(data),
         samples_at_(mpm::sample_points(plan.scene.scene, plan.scene.scheme)) {
+    data_.start = simulation.particles().position;
     record_history(plan.scene.start);
   }
 
@@ -38,6 +50,7 @@ class Recorder {
     const mpm::Particles& particles = simulation_.particles();
     for (std::size_t p = 0; p < particles.size(); ++p)
       add(t, Location::Particles, particles.position[p], particles.velocity[p]);
+    add_state(t);
     data_.probe.push_back(probe_velocity(t));
     if (scene_.flow->has_shear_profile()) add_shear(t);
   }
@@ -46,6 +59,21 @@ class Recorder {
   void add(double t, Location location, const Vec2& x, const Vec2& v) {
     const Vec2 exact = exact_ ? exact_->velocity(x, t, location) : Vec2(nan, nan);
     data_.profile.push_back({t, name(location), x.x(), x.y(), v.x(), v.y(), exact.x(), exact.y()});
+  }
+
+  /// Density and pressure of the particles, where the flow has an exact density.
+  void add_state(double t) {
+    const mpm::Fluid& fluid = scene_.fluid.solver;
+    if (!exact_ || !fluid.pressure) return;
+    const mpm::TaitPressure eos{fluid.bulk_modulus, 1 / fluid.density};
+    const mpm::Particles& particles = simulation_.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const auto density = exact_->density(particles.position[p], t);
+      if (!density) return;
+      data_.state.push_back(state_at(scene_, t, name(Location::Particles), particles.position[p], *density));
+      data_.state.back().density = particles.density[p];
+      data_.state.back().pressure = eos.pressure(particles.density[p]);
+    }
   }
 
   /// Shear rate sqrt(2 D:D) and viscosity ratio at the centres of the cells under the probe.
@@ -109,6 +137,15 @@ std::vector<reports::ShearRow> exact_shear(const SceneConfig& scene, const Exact
   return rows;
 }
 
+std::vector<reports::StateRow> exact_state(const SceneConfig& scene, const ExactField& exact) {
+  std::vector<reports::StateRow> rows;
+  if (!scene.fluid.solver.pressure) return rows;
+  for (const double t : scene.outputs)
+    for (const Vec2& x : scene.flow->exact_line())
+      if (const auto density = exact.density(x, t)) rows.push_back(state_at(scene, t, "exact", x, *density));
+  return rows;
+}
+
 std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneConfig& scene) {
   switch (study.comparison) {
     case Comparison::Discrete:
@@ -126,9 +163,14 @@ RunData run_simulation(const Study& study, const PlannedRun& plan) {
   data.plan = &plan;
   const auto exact = compared_with(study, scene);
   mpm::Scene started = scene.scene;
-  if (scene.start > 0)
-    started.initial_velocity = [field = scene.flow->exact(scene.reference_times()), t = scene.start](
-                                   const Vec2& x) { return field->velocity(x, t, Location::Particles); };
+  if (scene.start > 0) {
+    const auto field = scene.flow->exact(scene.reference_times());
+    started.initial_velocity = [field, t = scene.start](const Vec2& x) {
+      return field->velocity(x, t, Location::Particles);
+    };
+    if (field->density(Vec2::Zero(), scene.start))
+      started.initial_density = [field, t = scene.start](const Vec2& x) { return *field->density(x, t); };
+  }
   const auto begin = std::chrono::steady_clock::now();
   const auto simulation = mpm::make_simulation(started, scene.scheme);
   Recorder recorder(plan, *simulation, exact.get(), data);
@@ -148,6 +190,8 @@ RunData run_simulation(const Study& study, const PlannedRun& plan) {
     data.profile.insert(data.profile.end(), rows.begin(), rows.end());
     const auto shear = exact_shear(scene, *exact);
     data.shear.insert(data.shear.end(), shear.begin(), shear.end());
+    const auto state = exact_state(scene, *exact);
+    data.state.insert(data.state.end(), state.begin(), state.end());
   }
   return data;
 }

@@ -14,6 +14,9 @@ std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneC
 /// Shear rate and viscosity of the exact solution on the same points; empty but for channels.
 std::vector<reports::ShearRow> exact_shear(const SceneConfig& scene, const ExactField& exact);
 
+/// Density and pressure of the exact solution on its fine line; empty where it has no density.
+std::vector<reports::StateRow> exact_state(const SceneConfig& scene, const ExactField& exact);
+
 /// Fine exact lines at the output times, for figures and for `reference`.
 std::vector<reports::ProfileRow> exact_lines(const SceneConfig& scene, const ExactField& exact);
 

@@ -122,6 +122,7 @@ class SuiteRunner {
     reports::write_profile(out_, plan.run, data.profile);
     reports::write_history(out_, plan.run, data.history);
     if (!data.shear.empty()) reports::write_shear(out_, plan.run, data.shear);
+    if (!data.state.empty()) reports::write_state(out_, plan.run, data.state);
 
     const std::scoped_lock lock(mutex_);
     data_[job.study].runs[job.run] = std::move(data);
@@ -152,6 +153,8 @@ class SuiteRunner {
       run.profile = {};  // on disk by now; a suite would hold gigabytes otherwise
       run.history = {};
       run.shear = {};
+      run.state = {};
+      run.start = {};
     }
     if (listener_.study_ended) listener_.study_ended(data);
   }
