@@ -42,6 +42,16 @@ int dispatch(int argc, char** argv) {
   run_app->add_option("--jobs", run.jobs, "Runs at the same time (default: one a core)")
       ->check(CLI::Range(1, 1024));
   run_app->add_option("--studies", studies, "Directory of the studies");
+  auto* no_cache = run_app->add_flag("--no-cache", run.no_cache,
+                                     "Run everything; neither use nor fill the cache of finished runs");
+  run_app->add_flag("--fresh", run.fresh, "Run everything, and replace what the cache of finished runs holds")
+      ->excludes(no_cache);
+  run_app->add_flag("--resume", run.resume,
+                    "Go on with a suite that was stopped or killed in --out: finished runs come from the "
+                    "cache, the rest is "
+                    "run, with the same bytes as without the stop. Plain `run` does so too; --resume refuses "
+                    "a directory in "
+                    "which none was begun");
 
   std::string report_dir;
   auto* report_app =
