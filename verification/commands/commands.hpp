@@ -37,6 +37,14 @@ int reference_command(const SceneOptions& options);
 /// How many simulations or figures are made at the same time: `asked`, or as many as there are cores for 0.
 int job_count(int asked);
 
+struct CompareOptions {
+  std::filesystem::path before, after;
+  double tolerance = 1e-9;  ///< relative change of errors and orders that is round-off
+  bool all = false;         ///< list every change
+};
+/// 0: nothing got worse beyond noise; 1: something did.
+int compare_command(const CompareOptions& options);
+
 int report_command(const std::filesystem::path& dir);
 
 }  // namespace verification
