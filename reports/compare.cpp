@@ -51,7 +51,8 @@ Change judge(const Measured& before, const Measured& after) {
   const double noise = noise_between(before, after);
   if (std::isnan(noise)) {
     change.verdict = Verdict::Changed;
-    change.note = "not judged: measured once, the noise is not known";
+    change.note = "not judged: measured once";
+    change.judged = false;
     return change;
   }
   if (std::abs(after.value - before.value) <= noise) return change;

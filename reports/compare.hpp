@@ -29,6 +29,7 @@ struct Change {
   Verdict verdict = Verdict::Same;
   Measured before, after;  ///< `before` is empty for New, `after` for Missing
   std::string note;        ///< why it is judged so, where that is not plain
+  bool judged = true;      ///< false when the noise is not known: measured once
 };
 
 /// One file of OLD against the same of NEW.
@@ -67,8 +68,8 @@ std::vector<FileComparison> compare_results(const std::filesystem::path& before,
                                             const std::filesystem::path& after,
                                             const CompareOptions& options);
 
-/// The comparison as text: a line a change, at most `most` a file, then the counts. With colour for a
-/// terminal.
-std::string comparison_text(const std::vector<FileComparison>& comparison, std::size_t most, bool colour);
+/// The comparison as text: a line a change, then the counts. Without `all`, at most 20 changes a file and none
+/// that is not judged. Colour is for a terminal.
+std::string comparison_text(const std::vector<FileComparison>& comparison, bool all, bool colour);
 
 }  // namespace reports

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "reports/compare.hpp"
 #include "reports/report_data.hpp"
@@ -41,18 +42,24 @@ std::string line_of(const Change& change, bool statement, bool colour) {
 
 }  // namespace
 
-std::string comparison_text(const std::vector<FileComparison>& comparison, std::size_t most, bool colour) {
+std::string comparison_text(const std::vector<FileComparison>& comparison, bool all, bool colour) {
+  const std::size_t most = all ? std::numeric_limits<std::size_t>::max() : 20;
   std::string text;
   std::size_t worse = 0;
   for (const FileComparison& file : comparison) {
     const bool statements = file.file == "checks.csv" || file.file == "runs.csv";
-    std::size_t shown_lines = 0;
+    std::size_t shown_lines = 0, unjudged = 0, left_out = 0;
     for (const Change& change : file.changes) {
-      if (shown_lines++ == most) break;
+      const bool judged = change.judged;
+      unjudged += !judged;
+      if (shown_lines == most || (!judged && !all)) {
+        left_out += judged;
+        continue;
+      }
+      ++shown_lines;
       text += line_of(change, statements, colour);
     }
-    if (file.changes.size() > most)
-      text += fmt::format("         ... and {} more; --all lists them\n", file.changes.size() - most);
+    if (left_out > 0) text += fmt::format("         ... and {} more; --all lists them\n", left_out);
     text += fmt::format("{}: {} same", file.file, file.same);
     for (const Verdict v :
          {Verdict::Worse, Verdict::Better, Verdict::Changed, Verdict::New, Verdict::Missing})

@@ -145,7 +145,7 @@ struct FigureRecord {
   std::string title;   ///< the claim that the figure shows
   std::string runs;    ///< runs to draw (profiles, history, work-precision); "" = all of the study
   std::string labels;  ///< a legend entry for each run; "" = run names
-  std::string across;  ///< coordinate of profiles: "x" or "y"
+  std::string across;  ///< profiles: "x" or "y"; work-precision: "wall" or "particle-steps"
   std::string component;                                ///< velocity component of profiles: "u" or "v"
   std::string location;                                 ///< "grid", "particles", or "grid;particles"
   std::string norm;                                     ///< convergence, work-precision: "l1", "l2", "linf"

@@ -3,7 +3,7 @@
 #include "reports/compare.hpp"
 #include "reports/io_error.hpp"
 #include "tests/catch.hpp"
-#include "tests/e2e/program.hpp"
+#include "tests/scratch_directory.hpp"
 
 using namespace reports;
 
@@ -102,7 +102,7 @@ TEST_CASE("a run that no longer completes is worse; the text says so") {
   const auto result =
       compare_results(scratch.write("a.csv", "run,status\nr,completed\nq,completed\n"),
                       scratch.write("b.csv", "run,status\nr,diverged at t = 1 s\nq,completed\n"), {});
-  const std::string text = comparison_text(result, 10, false);
+  const std::string text = comparison_text(result, false, false);
   CHECK_THAT(text, contains("WORSE   r, completed: yes -> no"));
   CHECK_THAT(text, contains("1 same, 1 WORSE"));
   CHECK_THAT(text, contains("1 regressions"));

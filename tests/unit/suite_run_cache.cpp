@@ -1,10 +1,14 @@
+#include <atomic>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 
 #include "reports/atomic_file.hpp"
 #include "reports/content_hash.hpp"
 #include "tests/catch.hpp"
-#include "tests/e2e/program.hpp"
+#include "tests/scratch_directory.hpp"
 #include "verification/study/run_simulation.hpp"
 #include "verification/study/study_reader.hpp"
 #include "verification/suite/run_cache.hpp"

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "reports/compare.hpp"
 #include "verification/commands/commands.hpp"
@@ -11,8 +10,7 @@ namespace verification {
 
 int compare_command(const CompareOptions& options) {
   const auto comparison = reports::compare_results(options.before, options.after, {options.tolerance});
-  const std::size_t most = options.all ? std::numeric_limits<std::size_t>::max() : 20;
-  fmt::print("{}", reports::comparison_text(comparison, most, use_colour()));
+  fmt::print("{}", reports::comparison_text(comparison, options.all, use_colour()));
   const bool worse = std::ranges::any_of(
       comparison, [](const auto& file) { return file.count(reports::Verdict::Worse) > 0; });
   return worse ? 1 : 0;
