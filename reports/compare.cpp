@@ -38,13 +38,13 @@ double loss(const Measured& before, const Measured& after) {
 
 Change judge(const Measured& before, const Measured& after) {
   Change change{Verdict::Same, before, after, ""};
-  if (std::isnan(before.value) && std::isnan(after.value)) return change;
-  if (std::isnan(after.value) || std::isnan(before.value)) {
-    const bool lost = std::isnan(after.value);
+  if (!std::isfinite(before.value) && !std::isfinite(after.value)) return change;
+  if (!std::isfinite(after.value) || !std::isfinite(before.value)) {
+    const bool lost = !std::isfinite(after.value);
     change.verdict = after.sense == Sense::Neutral ? Verdict::Changed
                      : lost                        ? Verdict::Worse
                                                    : Verdict::Better;
-    change.note = lost ? "is no number any more" : "was no number";
+    change.note = lost ? "is no finite number any more" : "was no finite number";
     return change;
   }
   if (before.value == after.value) return change;
@@ -106,7 +106,7 @@ FileComparison compare_measured(const std::string& file, const std::vector<Measu
     const auto found = earlier.find(m.name);
     if (found == earlier.end()) {
       // A statement that is new and does not hold is as bad as one that no longer holds.
-      const bool red = m.unit.empty() && m.sense == Sense::HigherIsBetter && m.value == 0;
+      const bool red = m.statement && m.value == 0;
       comparison.changes.push_back(
           {red ? Verdict::Worse : Verdict::New, {}, m, red ? "new, and failed" : ""});
       continue;

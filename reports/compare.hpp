@@ -19,6 +19,7 @@ struct Measured {
   double relative =
       0;  ///< changes within relative * |value| + absolute are noise; NaN: the noise is not known
   double absolute = 0;
+  bool statement = false;  ///< holds (1) or does not (0)
 };
 
 enum class Verdict { Same, Better, Worse, Changed, New, Missing };
@@ -68,8 +69,8 @@ std::vector<FileComparison> compare_results(const std::filesystem::path& before,
                                             const std::filesystem::path& after,
                                             const CompareOptions& options);
 
-/// The comparison as text: a line a change, then the counts. Without `all`, at most 20 changes a file and none
-/// that is not judged. Colour is for a terminal.
+/// The comparison as text: a line a change, then the counts. Without `all`, at most 20 changes a file and
+/// none that is not judged. Colour is for a terminal.
 std::string comparison_text(const std::vector<FileComparison>& comparison, bool all, bool colour);
 
 }  // namespace reports

@@ -41,9 +41,9 @@ bool has_columns(const std::vector<std::string>& header, const Columns& columns)
       columns);
 }
 
-/// Noise of a time measured with this spread; for two times the larger of the two counts (see noise_between).
+/// A number whose noise is known from the spread of its repetitions.
 Measured timed(std::string name, double value, std::string unit, Sense sense, double spread) {
-  return {std::move(name), value, std::move(unit), sense, 0, spread, 0};
+  return {std::move(name), value, std::move(unit), sense, 0, spread, 0, false};
 }
 
 std::vector<Measured> statuses(const fs::path& file) {
@@ -51,7 +51,8 @@ std::vector<Measured> statuses(const fs::path& file) {
       std::make_tuple(column("run", &RunRecord::run), column("status", &RunRecord::status));
   std::vector<Measured> found;
   for (const RunRecord& run : read_csv(file, columns))
-    found.push_back({run.run + ", completed", completed(run) ? 1.0 : 0.0, "", Sense::HigherIsBetter});
+    found.push_back(
+        {run.run + ", completed", completed(run) ? 1.0 : 0.0, "", Sense::HigherIsBetter, 0, 0, 0, true});
   return found;
 }
 
@@ -64,7 +65,7 @@ std::vector<Measured> errors(const fs::path& file, const CompareOptions& options
   for (const ErrorRecord& e : read_csv(file, columns))
     for (const auto& [norm, value] : {std::pair{"l1", e.l1}, {"l2", e.l2}, {"linf", e.linf}})
       found.push_back({fmt::format("{}, t = {} s, {}, {}", e.run, e.t, e.location, norm), value, "",
-                       Sense::LowerIsBetter, 0, options.tolerance, error_floor});
+                       Sense::LowerIsBetter, 0, options.tolerance, error_floor, false});
   return found;
 }
 
@@ -79,7 +80,7 @@ std::vector<Measured> orders(const fs::path& file, const CompareOptions& options
     found.push_back({fmt::format("{}{}{}, order in {}, {} {}, t = {} s", o.study,
                                  o.variant.empty() ? "" : ".", o.variant, o.axis, o.location, o.norm, o.t),
                      o.observed, "", std::isnan(o.theoretical) ? Sense::Neutral : Sense::NearerIsBetter,
-                     o.theoretical, options.tolerance, options.tolerance});
+                     o.theoretical, options.tolerance, options.tolerance, false});
   return found;
 }
 
@@ -90,7 +91,8 @@ std::vector<Measured> verdicts(const fs::path& file) {
                       column("upper", &CheckRecord::upper), column("verdict", &CheckRecord::verdict));
   std::vector<Measured> found;
   for (const CheckRecord& check : read_csv(file, columns))
-    found.push_back({check.study + ", " + check.check, holds(check) ? 1.0 : 0.0, "", Sense::HigherIsBetter});
+    found.push_back({check.study + ", " + check.check, holds(check) ? 1.0 : 0.0, "", Sense::HigherIsBetter, 0,
+                     0, 0, true});
   return found;
 }
 

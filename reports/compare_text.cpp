@@ -19,20 +19,20 @@ std::string by_how_much(double before, double after) {
 }
 
 /// Statements are 0 or 1: words say more.
-std::string shown(const Measured& m, bool statement) {
+std::string shown(const Measured& m) {
   if (m.name.empty()) return "-";
-  if (statement) return m.value == 1 ? "yes" : "no";
+  if (m.statement) return m.value == 1 ? "yes" : "no";
   return number(m.value, 6) + (m.unit.empty() ? "" : " " + m.unit);
 }
 
-std::string line_of(const Change& change, bool statement, bool colour) {
+std::string line_of(const Change& change, bool colour) {
   const bool worse = change.verdict == Verdict::Worse;
   const Measured& known = change.after.name.empty() ? change.before : change.after;
   const bool both = !change.before.name.empty() && !change.after.name.empty();
-  std::string line = fmt::format("{}{:<8}{}{}: {} -> {}", worse && colour ? "\033[1;31m" : "",
-                                 to_string(change.verdict), worse && colour ? "\033[0m" : "", known.name,
-                                 shown(change.before, statement), shown(change.after, statement));
-  if (both && !statement) {
+  std::string line =
+      fmt::format("{}{:<8}{}{}: {} -> {}", worse && colour ? "\033[1;31m" : "", to_string(change.verdict),
+                  worse && colour ? "\033[0m" : "", known.name, shown(change.before), shown(change.after));
+  if (both && !known.statement) {
     const std::string much = by_how_much(change.before.value, change.after.value);
     if (!much.empty()) line += " (" + much + ")";
   }
@@ -47,7 +47,6 @@ std::string comparison_text(const std::vector<FileComparison>& comparison, bool 
   std::string text;
   std::size_t worse = 0;
   for (const FileComparison& file : comparison) {
-    const bool statements = file.file == "checks.csv" || file.file == "runs.csv";
     std::size_t shown_lines = 0, unjudged = 0, left_out = 0;
     for (const Change& change : file.changes) {
       const bool judged = change.judged;
@@ -57,7 +56,7 @@ std::string comparison_text(const std::vector<FileComparison>& comparison, bool 
         continue;
       }
       ++shown_lines;
-      text += line_of(change, statements, colour);
+      text += line_of(change, colour);
     }
     if (left_out > 0) text += fmt::format("         ... and {} more; --all lists them\n", left_out);
     text += fmt::format("{}: {} same", file.file, file.same);
