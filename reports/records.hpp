@@ -71,10 +71,17 @@ struct CheckRecord {
 };
 
 /// timing.csv: the only file that may differ between two runs of the same build.
+inline constexpr const char* timing_measured = "measured";  ///< in this run of the suite
+inline constexpr const char* timing_from_cache =
+    "cache";  ///< when the run was simulated, in an earlier suite
 struct TimingRecord {
   std::string run;
-  double wall_s = 0;                ///< [s]
+  double wall_s = 0;                ///< simulation alone, the fastest repetition [s]
   double particle_steps_per_s = 0;  ///< [1/s]
+  long repetitions = 1;             ///< timed, after a warm-up where there is more than one
+  /// (median - fastest)/fastest of the repetitions [-]; NaN for a single one, whose noise is not known
+  double spread = std::numeric_limits<double>::quiet_NaN();
+  std::string source = timing_measured;
 };
 
 /// profiles/<run>.csv: velocity at points. location: "grid", "particles", or "exact" (a fine line for
@@ -149,7 +156,7 @@ struct FigureRecord {
   std::string title;      ///< the claim that the figure shows
   std::string runs;       ///< runs to draw (profiles, history, work-precision); "" = all of the study
   std::string labels;     ///< a legend entry for each run; "" = run names
-  std::string across;     ///< coordinate of profiles: "x" or "y"
+  std::string across;     ///< profiles: "x" or "y"; work-precision: "wall" or "particle-steps"
   std::string component;  ///< velocity component of profiles: "u" or "v"
   std::string location;   ///< "grid", "particles", or "grid;particles"
   std::string norm;       ///< convergence, work-precision: "l1", "l2", "linf"

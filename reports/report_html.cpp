@@ -7,6 +7,7 @@
 #include "reports/html_matrix.hpp"
 #include "reports/html_page.hpp"
 #include "reports/html_study.hpp"
+#include "reports/work_precision.hpp"
 
 namespace reports {
 namespace {
@@ -34,6 +35,8 @@ std::string contents(const ReportData& data) {
   std::string text = "<nav aria-label=\"Contents\">\n<b>Contents</b>\n<ul>\n";
   if (!data.results.matrix.empty()) text += "<li><a href=\"#matrix\">Order matrix</a></li>\n";
   if (!data.results.claims.empty()) text += "<li><a href=\"#claims\">Claims judged</a></li>\n";
+  if (!cheapest_runs(data.results).empty())
+    text += "<li><a href=\"#cheapest\">Cheapest way to an error</a></li>\n";
   for (const StudyRecord& study : studies_of(data.results)) {
     std::size_t held = 0;
     const auto checks = checks_of(data.results, study.study);
@@ -134,6 +137,7 @@ std::string html_report(const std::filesystem::path& dir, const ReportData& data
   body += contents(data);
   body += claim_section(data.results.claims);
   body += html_matrix(data.results.matrix);
+  body += html_cheapest(data.results);
   for (const StudyRecord& study : studies_of(data.results)) body += html_study(dir, data, study);
   body += run_section(data.results);
   body += provenance_section(data.provenance);

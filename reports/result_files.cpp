@@ -81,10 +81,13 @@ constexpr auto check_columns = std::make_tuple(  //
     column("verdict", &CheckRecord::verdict),    //
     column("reason", &CheckRecord::reason));
 
-constexpr auto timing_columns = std::make_tuple(  //
-    column("run", &TimingRecord::run),            //
-    column("wall_s", &TimingRecord::wall_s),      //
-    column("particle_steps_per_s", &TimingRecord::particle_steps_per_s));
+constexpr auto timing_columns = std::make_tuple(                          //
+    column("run", &TimingRecord::run),                                    //
+    column("wall_s", &TimingRecord::wall_s),                              //
+    column("particle_steps_per_s", &TimingRecord::particle_steps_per_s),  //
+    column("repetitions", &TimingRecord::repetitions),                    //
+    column("spread", &TimingRecord::spread),                              //
+    column("source", &TimingRecord::source));
 
 constexpr auto figure_columns = std::make_tuple(    //
     column("figure", &FigureRecord::figure),        //
@@ -224,6 +227,18 @@ void write_results(const std::filesystem::path& dir, const Results& results) {
   write_csv(dir / "matrix.csv", matrix_columns, results.matrix);
 }
 
+void remove_tables(const std::filesystem::path& dir) {
+  std::error_code ignored;
+  // checks.csv goes first: without it nobody takes what is left for a result.
+  for (const char* name :
+       {"checks.csv", "report.html", "report.md", "junit.xml", "studies.csv", "runs.csv", "errors.csv",
+        "levels.csv", "orders.csv", "timing.csv", "figures.csv", "claims.csv", "matrix.csv"})
+    std::filesystem::remove(dir / name, ignored);
+  for (const char* part : {".", "profiles", "scenes", "figures"})
+    for (const auto& entry : std::filesystem::directory_iterator(dir / part, ignored))
+      if (entry.path().extension() == ".tmp") std::filesystem::remove(entry.path(), ignored);
+}
+
 std::vector<ProfileRow> read_profile(const std::filesystem::path& dir, const std::string& run) {
   return read_csv(profile_path(dir, run, ".csv"), profile_columns);
 }
@@ -232,7 +247,7 @@ void write_profile(const std::filesystem::path& dir, const std::string& run,
                    const std::vector<ProfileRow>& rows) {
   const auto path = profile_path(dir, run, ".csv");
   ensure_directory(path.parent_path());
-  write_csv(path, profile_columns, rows);
+  keep_file(path, csv_text(profile_columns, rows));
 }
 
 std::vector<HistoryRow> read_history(const std::filesystem::path& dir, const std::string& run) {
@@ -243,7 +258,7 @@ void write_history(const std::filesystem::path& dir, const std::string& run,
                    const std::vector<HistoryRow>& rows) {
   const auto path = profile_path(dir, run, ".history.csv");
   ensure_directory(path.parent_path());
-  write_csv(path, history_columns, rows);
+  keep_file(path, csv_text(history_columns, rows));
 }
 
 std::vector<ShearRow> read_shear(const std::filesystem::path& dir, const std::string& run) {
@@ -254,7 +269,7 @@ void write_shear(const std::filesystem::path& dir, const std::string& run,
                  const std::vector<ShearRow>& rows) {
   const auto path = profile_path(dir, run, ".shear.csv");
   ensure_directory(path.parent_path());
-  write_csv(path, shear_columns, rows);
+  keep_file(path, csv_text(shear_columns, rows));
 }
 
 std::vector<StateRow> read_state(const std::filesystem::path& dir, const std::string& run) {

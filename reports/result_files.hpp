@@ -14,7 +14,12 @@ namespace reports {
 Results read_results(const std::filesystem::path& dir);
 void write_results(const std::filesystem::path& dir, const Results& results);
 
-/// profiles/<run>.csv
+/// Removes the tables and reports of an earlier suite, checks.csv first, and what an interrupted write left
+/// (*.tmp).
+void remove_tables(const std::filesystem::path& dir);
+
+/// profiles/<run>.csv. Files of runs are not flushed to disk (Durability::Unsynced), and not touched where
+/// the bytes are there.
 std::vector<ProfileRow> read_profile(const std::filesystem::path& dir, const std::string& run);
 void write_profile(const std::filesystem::path& dir, const std::string& run,
                    const std::vector<ProfileRow>& rows);

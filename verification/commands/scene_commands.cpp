@@ -6,6 +6,7 @@
 #include "verification/commands/commands.hpp"
 #include "verification/commands/provenance_of.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/flows/reference_store.hpp"
 #include "verification/study/measures.hpp"
 #include "verification/study/run_simulation.hpp"
 
@@ -76,7 +77,7 @@ int solve_command(const SceneOptions& options) {
       figure_of(study, "profiles", study.runs.front().scene.flow_name + ": velocity profiles"),
       figure_of(study, "history", study.runs.front().scene.flow_name + ": velocity at the probe")};
   reports::write_results(options.out, results);
-  for (const std::string& warning : reports::write_figures(options.out))
+  for (const std::string& warning : reports::write_figures(options.out, {cache_directory(), job_count(0)}))
     fmt::print(stderr, "warning: {}\n", warning);
 
   fmt::print("{}: {}; {} particles, {} steps, {:.3g} s, {:.3g} particle-steps/s\n", data.record.run,

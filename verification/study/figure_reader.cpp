@@ -56,6 +56,11 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
     figure.across = last->scene.flow->across() == 0 ? "x" : "y";
     figure.component = last->scene.flow->probe().direction.x() != 0 ? "u" : "v";
   }
+  if (figure.kind == "work-precision") {
+    figure.across = table.text("cost", "wall");
+    if (figure.across != "wall" && figure.across != "particle-steps")
+      table.fail("cost", "must be \"wall\" or \"particle-steps\"");
+  }
   figure.figure = study.name + "-" + table.text("name", figure.kind);
   if (std::ranges::any_of(study.figures, [&](const auto& other) { return other.figure == figure.figure; }))
     table.fail("name", "a second figure of this kind needs a name of its own");

@@ -5,7 +5,8 @@
 namespace verification {
 
 /// Runs one planned simulation with our solver and takes its profiles, history and timing. A run that breaks
-/// down is recorded ("diverged at t = ..."); its profiles end with the last output reached.
+/// down is recorded ("diverged at t = ..."); its profiles end with the last output reached. Throws
+/// Interrupted when a signal has come (interruption.hpp).
 RunData run_simulation(const Study& study, const PlannedRun& plan);
 
 /// What the study compares a scene with; null where nothing is known.

@@ -77,6 +77,9 @@ struct Study {
   std::string solver_command;  ///< of an external solver; "" for ours
   Ladder ladder;
   bool matrix = false;  ///< its variants are a [matrix] of schemes
+  /// Times that each run is simulated to measure what it costs, after a warm-up and with nothing else
+  /// running; 0: cost is not the point, and runs share the machine.
+  int repetitions = 0;
   std::vector<std::string> variants;
   std::vector<PlannedRun> runs;  ///< variant by variant, coarse to fine
   std::vector<CheckSpec> checks;

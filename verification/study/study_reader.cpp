@@ -203,6 +203,8 @@ Study read_study(const std::filesystem::path& file) {
   study.comparison = read_comparison(root);
   study.ladder = read_ladder(root.table("ladder"), root.has("ladder"), root.has("matrix"));
   study.matrix = root.has("matrix");
+  study.repetitions = root.integer("repetitions", 0);
+  if (study.repetitions < 0 || study.repetitions > 1000) root.fail("repetitions", "must lie in [0, 1000]");
   if (root.has("solver")) {
     TomlTable solver = root.table("solver");
     study.solver_command = solver.text("command");
