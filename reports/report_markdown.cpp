@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "reports/html_matrix.hpp"
+#include "reports/scoreboard.hpp"
 
 namespace reports {
 namespace {
@@ -42,7 +43,8 @@ std::string check_section(const Results& results) {
     text += "| verdict | check | observed | bounds | reason for the bounds |\n|---|---|---|---|---|\n";
     std::size_t shown = 0, hidden = 0;
     for (const CheckRecord* check : checks) {
-      if (!holds(*check) || shown < most_rows) {
+      // What the scoreboard counts already is shown where it fails.
+      if (!holds(*check) || (shown < most_rows && check->unit != outcome_unit)) {
         text += check_row(*check, false);
         ++shown;
       } else {
@@ -124,7 +126,7 @@ std::string order_section(const Results& results) {
 std::string diverged_section(const Results& results) {
   std::string rows;
   for (const RunRecord& run : results.runs) {
-    if (completed(run)) continue;
+    if (completed(run) || expected_to_diverge(results, run)) continue;
     rows += fmt::format("| {} | {} | {} |\n", markdown_text(run.run), markdown_text(run.study),
                         markdown_text(run.status));
   }
@@ -177,6 +179,7 @@ std::string markdown_report(const ReportData& data) {
   if (!data.warnings.empty()) text += "\n## Warnings\n\n";
   for (const std::string& warning : data.warnings) text += "- " + markdown_text(warning) + "\n";
   text += claim_section(data.results.claims);
+  text += markdown_scoreboard(data.results.scores);
   text += markdown_matrix(data.results.matrix);
   text += check_section(data.results);
   text += order_section(data.results);

@@ -6,10 +6,12 @@
 #include "reports/atomic_file.hpp"
 #include "reports/console_table.hpp"
 #include "reports/report.hpp"
+#include "reports/scoreboard.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/provenance_of.hpp"
 #include "verification/commands/terminal.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/study/scoreboard_reader.hpp"
 #include "verification/study/study_reader.hpp"
 #include "verification/suite/run_suite.hpp"
 
@@ -23,7 +25,7 @@ std::vector<Study> chosen_studies(const RunOptions& options) {
   std::vector<Study> chosen;
   if (options.names.empty()) {
     for (Study& study : read_studies(options.studies))
-      if (study.suite <= suite) chosen.push_back(std::move(study));
+      if (restrict_to(study, suite)) chosen.push_back(std::move(study));
     return chosen;
   }
   for (const std::string& name : options.names) {
@@ -36,7 +38,7 @@ std::vector<Study> chosen_studies(const RunOptions& options) {
     Study study = read_study(file);
     if (std::ranges::any_of(chosen, [&](const Study& other) { return other.name == study.name; }))
       throw ConfigError("study '" + study.name + "' is named twice");
-    if (study.suite <= suite) chosen.push_back(std::move(study));
+    if (restrict_to(study, suite)) chosen.push_back(std::move(study));
   }
   return chosen;
 }
@@ -79,7 +81,7 @@ int run_command(const RunOptions& options) {
   const SuiteOutcome outcome = run_suite(studies, options.out, jobs, listener);
   const reports::ReportOutcome report = reports::write_report(options.out);
 
-  fmt::print("\n{}", reports::console_table(outcome.results.checks, colour));
+  fmt::print("\n{}", reports::console_table(reports::without_expected_outcomes(outcome.results), colour));
   for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
   fmt::print("report: {}\n", (options.out / "report.html").string());
   if (!outcome.failures.empty()) {

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reports/records.hpp"
 #include "verification/config/scene_config.hpp"
+#include "verification/study/scoreboard.hpp"
 
 namespace verification {
 
@@ -82,6 +84,7 @@ struct Study {
   std::vector<CheckSpec> checks;
   std::vector<ClaimSpec> claims;
   std::vector<reports::FigureRecord> figures;
+  std::optional<Scoreboard> scoreboard;  ///< of a hard case
 
   [[nodiscard]] double particle_steps() const;
   /// Runs of one variant, coarse to fine.

@@ -15,6 +15,7 @@
 #include "verification/study/run_external.hpp"
 #include "verification/study/run_simulation.hpp"
 #include "verification/study/scheme_matrix.hpp"
+#include "verification/study/scores.hpp"
 
 namespace verification {
 namespace {
@@ -148,6 +149,7 @@ class SuiteRunner {
     measure_orders(data);
     evaluate_checks(data);
     data.matrix = matrix_records(data);
+    data.scores = score_records(data);
     for (RunData& run : data.runs) {
       run.profile = {};  // on disk by now; a suite would hold gigabytes otherwise
       run.history = {};
@@ -173,6 +175,7 @@ class SuiteRunner {
       append(results.checks, data_[s].checks);
       append(results.claims, data_[s].claims);
       append(results.matrix, data_[s].matrix);
+      append(results.scores, data_[s].scores);
       append(results.figures, study.figures);
     }
     std::ranges::stable_sort(results.claims, {}, place_in_paper);
