@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "verification/checks/chatter_check.hpp"
 #include "verification/checks/check_keys.hpp"
 #include "verification/checks/check_reader.hpp"
 #include "verification/checks/comparison.hpp"
@@ -209,6 +210,7 @@ const std::vector<CheckKind>& check_kinds() {
     };
     add_quantity_kinds(list);
     add_outcome_kind(list);
+    add_chatter_kind(list);
     return list;
   }();
   return kinds;

@@ -69,6 +69,26 @@ double asymmetry(const std::vector<double>& cells) {
   return largest / *std::ranges::max_element(cells);
 }
 
+double error_at(const RunData& run, double t, const char* location) {
+  for (const reports::ErrorRecord& error : run.errors)
+    if (error.t == t && error.location == location) return error.l2;
+  return nan;
+}
+
+/// Largest |E(t)/E(middle) - 1| over the second half of the history.
+double energy_drift(const History& history) {
+  if (history.size() < 3) return nan;
+  const double middle = 0.5 * (history.front().t + history.back().t);
+  double reference = nan, largest = 0;
+  for (const reports::HistoryRow& row : history) {
+    if (row.t < middle) continue;
+    if (std::isnan(reference)) reference = row.kinetic_energy;
+    const double change = std::abs(row.kinetic_energy / reference - 1);
+    if (!(change <= largest)) largest = change;  // keeps a NaN
+  }
+  return largest;
+}
+
 struct Entry {
   const char *name, *unit;
   bool time, place;
@@ -96,6 +116,12 @@ const std::vector<Entry> entries = {
      [](const Quantity& q, const RunData& r) { return smallest_spread(cells_at(r, q.time, rate)); }},
     {"shear-rate-asymmetry", "1", true, false,
      [](const Quantity& q, const RunData& r) { return asymmetry(cells_at(r, q.time, rate)); }},
+    {"grid-error", "1", true, false,
+     [](const Quantity& q, const RunData& r) { return error_at(r, q.time, "grid"); }},
+    {"particle-error", "1", true, false,
+     [](const Quantity& q, const RunData& r) { return error_at(r, q.time, "particles"); }},
+    {"energy-drift", "1", false, false,
+     [](const Quantity&, const RunData& r) { return r.completed() ? energy_drift(r.history) : nan; }},
 };
 
 const Entry& entry(const std::string& name) {

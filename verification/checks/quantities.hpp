@@ -21,6 +21,8 @@ struct Quantity {
 ///   shear-rate-rise  smallest increase from cell to cell, resting plate to moving plate, over the largest
 ///   rate [1] shear-rate-spread   the same from the middle to either plate [1] shear-rate-asymmetry   largest
 ///   |rate(y) - rate(H - y)| over the largest rate [1]
+///   grid-error, particle-error   relative L2 error at a time [1]
+///   energy-drift     largest relative change of kinetic energy over the second half of the run [1]
 const std::vector<std::string>& quantity_names();
 bool needs_time(const std::string& quantity);
 bool needs_place(const std::string& quantity);

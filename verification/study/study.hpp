@@ -53,14 +53,15 @@ struct CheckSpec {
   std::string kind;
   std::vector<std::string> variants;  ///< that it speaks of
   std::vector<Location> locations;
-  std::string norm;           ///< "l1", "l2", "linf"
-  std::vector<double> times;  ///< [s]
-  std::string level;          ///< "finest", "coarsest", "all", or the end of a run's name, e.g. "n20"
-  std::string against;        ///< variant to compare with
-  std::string quantity;       ///< conserved quantity, or one of checks/quantities.hpp
-  double tolerance = 0;       ///< half width of a band about each variant's own theory
-  double place = 0;           ///< fraction of the gap
-  std::string claim;          ///< that this check is evidence for; "" for none
+  std::string norm;            ///< "l1", "l2", "linf"
+  std::vector<double> times;   ///< [s]
+  std::string level;           ///< "finest", "coarsest", "all", or the end of a run's name, e.g. "n20"
+  std::string against;         ///< variant to compare with
+  std::string quantity;        ///< conserved quantity, or one of checks/quantities.hpp
+  double tolerance = 0;        ///< half width of a band about each variant's own theory
+  double place = 0;            ///< fraction of the gap
+  double stability_limit = 0;  ///< of nu dt/h^2, for chatter
+  std::string claim;           ///< that this check is evidence for; "" for none
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   std::string reason;
