@@ -13,24 +13,6 @@
 namespace reports {
 namespace {
 
-// Light blue, amber and dark vermilion differ in lightness, so that they are told apart in any vision and in
-// print; each cell has its mark too.
-constexpr const char* style = R"(<style>
-.board { width: min(96vw, 120rem); margin-left: calc(50% - min(48vw, 60rem)); overflow: auto; max-height: 92vh; }
-.board table { font-size: .72rem; line-height: 1.25; border-collapse: separate; border-spacing: 1px; }
-.board th, .board td { padding: .12rem .25rem; border: 0; white-space: nowrap; }
-.board thead th { position: sticky; top: 0; z-index: 2; vertical-align: bottom; font-weight: 600; }
-.board thead th span { writing-mode: vertical-rl; transform: rotate(180deg); }
-.board tbody th { position: sticky; left: 0; z-index: 1; font-weight: 400; }
-.board thead th:first-child { left: 0; z-index: 3; } .board tr.group th { font-weight: 700; padding-top: .5rem; }
-.board td { text-align: center; min-width: 2.4rem; } .board td.none { color: var(--faint); }
-.fate { padding: 0 .25rem; } .survived { background: #cfe4f7; color: #0b2a45; } .degraded { background: #f5b942; color: #2b1c00; }
-.diverged, .failed { background: #8f2a16; color: #ffffff; } .unexpected { outline: 3px solid #ff0033; outline-offset: -1px; font-weight: 700; }
-@media print { .board { overflow: visible; max-height: none; width: auto; margin: 0; } .board table { font-size: 5pt; }
-  .fate, .board td { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
-</style>
-)";
-
 /// "2e-3": one significant digit, for a narrow cell.
 std::string brief(double value) {
   if (!std::isfinite(value)) return "-";
@@ -54,7 +36,7 @@ std::string cell(const ScoreRecord& s) {
   const std::string value = s.outcome == "diverged" ? brief(s.t_diverged) + " s" : brief(s.error);
   std::string hover = fmt::format("{}, {}: {}", s.hard_case, s.scheme, s.outcome);
   if (s.outcome == "diverged")
-    hover += fmt::format(" at t = {} s ({})", optional(s.t_diverged), s.status);
+    hover += fmt::format(" after {} s ({})", optional(s.t_diverged), s.status);
   else
     hover += fmt::format(", relative L2 error {} ({}), energy ratio {}", optional(s.error), s.location,
                          optional(s.energy_ratio));
@@ -134,14 +116,14 @@ std::string html_scoreboard(const std::vector<ScoreRecord>& scores) {
   if (scores.empty()) return "";
   const std::vector<CaseSummary> cases = summarise(scores);
   std::string text =
-      std::string(style) +
       "<section>\n<h2 id=\"scoreboard\">Stability scoreboard</h2>\n"
       "<p>Every scheme on every hard case: "
       "<span class=\"fate survived\">✓ error</span> survived, "
       "<span class=\"fate degraded\">~ error</span> degraded, "
       "<span class=\"fate diverged\">✗ time</span> diverged. A red frame marks an outcome that "
       "the study did not expect. <span class=\"faint\">Error: relative L2 error of velocity at "
-      "the end; time: when the root mean square velocity exceeded ten times its scale, or the "
+      "the end; time: from the start until the root mean square velocity exceeded ten times its scale, or "
+      "the "
       "run broke down; energy ratio (hover): kinetic energy of the particles over the exact "
       "solution's at the same places.</span></p>\n" +
       board(scores, cases) + "<details open><summary>What was expected, and why</summary>\n";

@@ -142,7 +142,7 @@ struct ScoreRecord {
   std::string outcome;      ///< "survived", "degraded", "diverged"; "failed" when it could not be simulated
   std::string expected;     ///< the outcome that the study declares
   std::string verdict;      ///< "pass" when they agree, else "fail"
-  double t_diverged = 0;    ///< when a diverged run went wrong [s]; NaN for others
+  double t_diverged = 0;    ///< time from the start at which a diverged run went wrong [s]; NaN for others
   double error = 0;         ///< relative L2 error of velocity at the last output; NaN if not reached
   double energy_ratio = 0;  ///< kinetic energy of the particles at the last output over the exact solution's
   double degraded_above = 0;                  ///< error beyond which a run is degraded

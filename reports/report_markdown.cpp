@@ -40,19 +40,23 @@ std::string check_section(const Results& results) {
     text += fmt::format("\n### {}\n\n", markdown_text(study.title.empty() ? study.study : study.title));
     if (!study.claim.empty()) text += markdown_text(study.claim) + "\n\n";
     if (!study.left_out.empty()) text += "Left out of the model: " + markdown_text(study.left_out) + ".\n\n";
-    text += "| verdict | check | observed | bounds | reason for the bounds |\n|---|---|---|---|---|\n";
+    std::string rows;
     std::size_t shown = 0, hidden = 0;
     for (const CheckRecord* check : checks) {
       // What the scoreboard counts already is shown where it fails.
       if (!holds(*check) || (shown < most_rows && check->unit != outcome_unit)) {
-        text += check_row(*check, false);
+        rows += check_row(*check, false);
         ++shown;
       } else {
         ++hidden;
       }
     }
+    if (shown > 0)
+      text +=
+          "| verdict | check | observed | bounds | reason for the bounds |\n|---|---|---|---|---|\n" + rows;
     if (hidden > 0)
-      text += fmt::format("\n{} more checks of this study hold: see checks.csv or report.html.\n", hidden);
+      text += fmt::format("\n{}{} checks of this study hold: see checks.csv or report.html.\n", hidden,
+                          shown > 0 ? " more" : "");
   }
   return text;
 }

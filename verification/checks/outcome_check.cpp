@@ -19,7 +19,7 @@ double number_of(const std::string& outcome) {
 
 std::string observed(const reports::ScoreRecord& score) {
   if (score.outcome == "failed") return score.status;
-  if (score.outcome == "diverged") return fmt::format("diverged at t = {:.4g} s", score.t_diverged);
+  if (score.outcome == "diverged") return fmt::format("diverged {:.4g} s after the start", score.t_diverged);
   return fmt::format("{} with error {:.3g}, energy ratio {:.4g}", score.outcome, score.error,
                      score.energy_ratio);
 }

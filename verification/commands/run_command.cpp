@@ -81,7 +81,8 @@ int run_command(const RunOptions& options) {
   const SuiteOutcome outcome = run_suite(studies, options.out, jobs, listener);
   const reports::ReportOutcome report = reports::write_report(options.out);
 
-  fmt::print("\n{}", reports::console_table(reports::without_expected_outcomes(outcome.results), colour));
+  const auto lines = reports::without_expected_outcomes(outcome.results);
+  fmt::print("\n{}", reports::console_table(lines, colour, outcome.results.checks.size() - lines.size()));
   for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
   fmt::print("report: {}\n", (options.out / "report.html").string());
   if (!outcome.failures.empty()) {

@@ -90,7 +90,7 @@ reports::ScoreRecord score_of(const RunData& run, const Study& study) {
   Fate fate = Fate::Survived;
   if (!run.completed() || !std::isnan(t_diverged) || !(record.error <= Scoreboard::blown_up)) {
     fate = Fate::Diverged;
-    record.t_diverged = std::isnan(t_diverged) ? end : t_diverged;
+    record.t_diverged = (std::isnan(t_diverged) ? end : t_diverged) - run.plan->scene.start;
   } else if (record.error > board.degraded_above || !(record.energy_ratio >= board.energy_lower) ||
              !(record.energy_ratio <= board.energy_upper)) {
     fate = Fate::Degraded;
