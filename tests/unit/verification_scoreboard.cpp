@@ -15,7 +15,7 @@ using namespace verification;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 const std::string good = R"(title = "T"
 claim = "C"
@@ -152,10 +152,11 @@ TEST_CASE("what became of a run: its error, its energy, its end") {
   CHECK(outcome_of(study, ended(study, 0.09, 0.4)) == "degraded");
   CHECK(outcome_of(study, ended(study, 0.09, 1.6)) == "degraded");
   CHECK(outcome_of(study, ended(study, 11, 1.0)) == "diverged");
-  CHECK(outcome_of(study, ended(study, nan, 1.0)) == "diverged");
+  CHECK(outcome_of(study, ended(study, not_a_number, 1.0)) == "diverged");
   CHECK(energy_ratio(ended(study, 0, 0.49), 0.02) == Approx(0.49).epsilon(1e-14));
 
-  RunData broken = ended(study, nan, nan, "diverged at t = 0.004 s: velocity is not finite");
+  RunData broken =
+      ended(study, not_a_number, not_a_number, "diverged at t = 0.004 s: velocity is not finite");
   CHECK(score_of(broken, study).t_diverged == 0.004);
   // Kinetic energies [J/m] of 1 kg/m: the scale is 1e-4 m/s, ten of which are 5e-7 J/m.
   reports::HistoryRow row;
@@ -188,8 +189,8 @@ TEST_CASE("an unexpected failure is red, and so is an unexpected survival") {
   const std::string broken = "diverged at t = 0.004 s: velocity is not finite";
   CHECK(verdict(survives, ended(survives, 0.01, 1)) == "pass");
   CHECK(verdict(survives, ended(survives, 0.2, 1)) == "fail");
-  CHECK(verdict(survives, ended(survives, nan, nan, broken)) == "fail");
-  CHECK(verdict(diverges, ended(diverges, nan, nan, broken)) == "pass");
+  CHECK(verdict(survives, ended(survives, not_a_number, not_a_number, broken)) == "fail");
+  CHECK(verdict(diverges, ended(diverges, not_a_number, not_a_number, broken)) == "pass");
   CHECK(verdict(diverges, ended(diverges, 0.2, 1)) == "fail");
   CHECK(verdict(diverges, ended(diverges, 0.01, 1)) == "fail");
   CHECK(verdict(diverges, ended(diverges, 0.01, 1, "failed: no such thing")) == "fail");
