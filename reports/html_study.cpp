@@ -129,7 +129,14 @@ std::string html_study(const std::filesystem::path& dir, const ReportData& data,
     section += fmt::format("<p class=\"faint\">Left out of the model: {}.</p>\n", html_text(study.left_out));
   section += fmt::format("<p class=\"faint\">Study <code>{}</code>{}</p>\n", html_text(study.study),
                          study.suite.empty() ? "" : ", suite " + html_text(study.suite));
-  const auto checks = checks_of(data.results, study.study);
+  auto checks = checks_of(data.results, study.study);
+  // Outcomes that hold stand in the scoreboard.
+  const auto shown_above = std::erase_if(
+      checks, [](const CheckRecord* check) { return check->unit == outcome_unit && holds(*check); });
+  if (shown_above > 0)
+    section +=
+        fmt::format("<p>{} schemes ended as expected: see the <a href=\"#board-{}\">scoreboard</a>.</p>\n",
+                    shown_above, html_anchor(study.study));
   if (!checks.empty()) section += "<h3>Checks</h3>\n" + html_checks(checks, false);
   for (const ReportFigure& figure : data.figures) {
     if (figure.figure.study == study.study) section += figure_element(dir, figure);

@@ -147,6 +147,29 @@ struct MatrixRecord {
   std::string reason;
 };
 
+/// Unit of checks that compare what became of a scheme with what was expected.
+inline constexpr const char* outcome_unit = "(0 survived, 1 degraded, 2 diverged)";
+
+/// scoreboard.csv: what became of a scheme on a hard case.
+struct ScoreRecord {
+  std::string study;
+  std::string hard_case;  ///< short name, heads a column
+  std::string scheme;     ///< the study's variant: basis_transfer_stepping, or a name of its own
+  std::string basis, transfer, stepping;
+  std::string outcome;      ///< "survived", "degraded", "diverged"; "failed" when it could not be simulated
+  std::string expected;     ///< the outcome that the study declares
+  std::string verdict;      ///< "pass" when they agree, else "fail"
+  double t_diverged = 0;    ///< time from the start at which a diverged run went wrong [s]; NaN for others
+  double error = 0;         ///< relative L2 error of velocity at the last output; NaN if not reached
+  double energy_ratio = 0;  ///< kinetic energy of the particles at the last output over the exact solution's
+  double degraded_above = 0;                  ///< error beyond which a run is degraded
+  double energy_lower = 0, energy_upper = 0;  ///< energy ratios outside are degraded
+  std::string location;                       ///< of the error: "grid" or "particles"
+  std::string status;                         ///< of the run
+  std::string reason;                         ///< of the expectation
+  std::string thresholds;                     ///< reason of the thresholds
+};
+
 /// figures.csv: what to draw from the files above. Lists are joined by ';'.
 struct FigureRecord {
   std::string figure;  ///< file stem, unique
@@ -175,6 +198,7 @@ struct Results {
   std::vector<FigureRecord> figures;
   std::vector<ClaimRecord> claims;
   std::vector<MatrixRecord> matrix;
+  std::vector<ScoreRecord> scores;
 };
 
 }  // namespace reports

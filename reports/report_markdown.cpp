@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "reports/html_matrix.hpp"
+#include "reports/scoreboard.hpp"
 #include "reports/work_precision.hpp"
 
 namespace reports {
@@ -40,18 +41,23 @@ std::string check_section(const Results& results) {
     text += fmt::format("\n### {}\n\n", markdown_text(study.title.empty() ? study.study : study.title));
     if (!study.claim.empty()) text += markdown_text(study.claim) + "\n\n";
     if (!study.left_out.empty()) text += "Left out of the model: " + markdown_text(study.left_out) + ".\n\n";
-    text += "| verdict | check | observed | bounds | reason for the bounds |\n|---|---|---|---|---|\n";
+    std::string rows;
     std::size_t shown = 0, hidden = 0;
     for (const CheckRecord* check : checks) {
-      if (!holds(*check) || shown < most_rows) {
-        text += check_row(*check, false);
+      // What the scoreboard counts already is shown where it fails.
+      if (!holds(*check) || (shown < most_rows && check->unit != outcome_unit)) {
+        rows += check_row(*check, false);
         ++shown;
       } else {
         ++hidden;
       }
     }
+    if (shown > 0)
+      text +=
+          "| verdict | check | observed | bounds | reason for the bounds |\n|---|---|---|---|---|\n" + rows;
     if (hidden > 0)
-      text += fmt::format("\n{} more checks of this study hold: see checks.csv or report.html.\n", hidden);
+      text += fmt::format("\n{}{} checks of this study hold: see checks.csv or report.html.\n", hidden,
+                          shown > 0 ? " more" : "");
   }
   return text;
 }
@@ -125,7 +131,7 @@ std::string order_section(const Results& results) {
 std::string diverged_section(const Results& results) {
   std::string rows;
   for (const RunRecord& run : results.runs) {
-    if (completed(run)) continue;
+    if (completed(run) || expected_to_diverge(results, run)) continue;
     rows += fmt::format("| {} | {} | {} |\n", markdown_text(run.run), markdown_text(run.study),
                         markdown_text(run.status));
   }
@@ -178,6 +184,7 @@ std::string markdown_report(const ReportData& data) {
   if (!data.warnings.empty()) text += "\n## Warnings\n\n";
   for (const std::string& warning : data.warnings) text += "- " + markdown_text(warning) + "\n";
   text += claim_section(data.results.claims);
+  text += markdown_scoreboard(data.results.scores);
   text += markdown_matrix(data.results.matrix);
   text += markdown_cheapest(data.results);
   text += check_section(data.results);

@@ -127,6 +127,27 @@ constexpr auto matrix_columns = std::make_tuple(              //
     column("verdict", &MatrixRecord::verdict),                //
     column("reason", &MatrixRecord::reason));
 
+constexpr auto score_columns = std::make_tuple(              //
+    column("study", &ScoreRecord::study),                    //
+    column("case", &ScoreRecord::hard_case),                 //
+    column("scheme", &ScoreRecord::scheme),                  //
+    column("basis", &ScoreRecord::basis),                    //
+    column("transfer", &ScoreRecord::transfer),              //
+    column("stepping", &ScoreRecord::stepping),              //
+    column("outcome", &ScoreRecord::outcome),                //
+    column("expected", &ScoreRecord::expected),              //
+    column("verdict", &ScoreRecord::verdict),                //
+    column("t_diverged", &ScoreRecord::t_diverged),          //
+    column("error", &ScoreRecord::error),                    //
+    column("energy_ratio", &ScoreRecord::energy_ratio),      //
+    column("degraded_above", &ScoreRecord::degraded_above),  //
+    column("energy_lower", &ScoreRecord::energy_lower),      //
+    column("energy_upper", &ScoreRecord::energy_upper),      //
+    column("location", &ScoreRecord::location),              //
+    column("status", &ScoreRecord::status),                  //
+    column("reason", &ScoreRecord::reason),                  //
+    column("thresholds", &ScoreRecord::thresholds));
+
 constexpr auto shear_columns = std::make_tuple(   //
     column("t", &ShearRow::t),                    //
     column("location", &ShearRow::location),      //
@@ -208,6 +229,7 @@ Results read_results(const std::filesystem::path& dir) {
   results.figures = read_csv(dir / "figures.csv", figure_columns);
   results.claims = read_csv(dir / "claims.csv", claim_columns);
   results.matrix = read_csv(dir / "matrix.csv", matrix_columns);
+  results.scores = read_csv(dir / "scoreboard.csv", score_columns);
   require_plain_names(results);
   return results;
 }
@@ -225,6 +247,7 @@ void write_results(const std::filesystem::path& dir, const Results& results) {
   write_csv(dir / "figures.csv", figure_columns, results.figures);
   write_csv(dir / "claims.csv", claim_columns, results.claims);
   write_csv(dir / "matrix.csv", matrix_columns, results.matrix);
+  write_csv(dir / "scoreboard.csv", score_columns, results.scores);
 }
 
 void remove_tables(const std::filesystem::path& dir) {

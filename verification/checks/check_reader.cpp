@@ -82,7 +82,7 @@ void evaluate_checks(StudyData& data) {
     kind_named(spec.kind, TomlTable::from_text("", data.study->name)).evaluate(spec, data, data.checks);
     for (std::size_t i = before; i < data.checks.size(); ++i)
       evidence.emplace_back(spec.claim, data.checks[i]);
-    fate_declared |= spec.kind == "divergence";
+    fate_declared |= spec.kind == "divergence" || spec.kind == "outcome";
   }
   if (!fate_declared) data.checks.push_back(completion(data));
   for (const ClaimSpec& claim : data.study->claims) data.claims.push_back(judged(claim, data, evidence));

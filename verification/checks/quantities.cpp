@@ -190,6 +190,20 @@ double largest_speed(const RunData& run, double from, double to) {
   return largest;
 }
 
+/// Largest |E(t)/E(middle) - 1| over the second half of the history.
+double energy_drift(const History& history) {
+  if (history.size() < 3) return nan;
+  const double middle = 0.5 * (history.front().t + history.back().t);
+  double reference = nan, largest = 0;
+  for (const reports::HistoryRow& row : history) {
+    if (row.t < middle) continue;
+    if (std::isnan(reference)) reference = row.kinetic_energy;
+    const double change = std::abs(row.kinetic_energy / reference - 1);
+    if (!(change <= largest)) largest = change;  // keeps a NaN
+  }
+  return largest;
+}
+
 struct Entry {
   const char *name, *unit;
   bool time, place;
@@ -239,6 +253,8 @@ const std::vector<Entry> entries = {
      }},
     {"speed-growth", "1", false, false,
      [](const Quantity&, const RunData& r) { return largest_speed(r, 0.5, 1) / largest_speed(r, 0, 0.5); }},
+    {"energy-drift", "1", false, false,
+     [](const Quantity&, const RunData& r) { return r.completed() ? energy_drift(r.history) : nan; }},
 };
 
 const Entry& entry(const std::string& name) {

@@ -31,6 +31,7 @@ struct Quantity {
 ///   error of velocity at a time [1] largest-speed    largest root mean square velocity of the particles over
 ///   the history, relative to the velocity scale [1] speed-growth     the same in the second half of the
 ///   history over that in the first [1]
+///   energy-drift     largest relative change of kinetic energy over the second half of the run [1]
 const std::vector<std::string>& quantity_names();
 bool needs_time(const std::string& quantity);
 bool needs_place(const std::string& quantity);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "verification/commands/commands.hpp"
+#include "verification/study/scoreboard_reader.hpp"
 #include "verification/study/study_reader.hpp"
 
 namespace verification {
@@ -13,8 +14,8 @@ int list_command(const ListOptions& options) {
              "claim");
   double total = 0;
   long runs = 0;
-  for (const Study& study : read_studies(options.studies)) {
-    if (study.suite > suite) continue;
+  for (Study& study : read_studies(options.studies)) {
+    if (!restrict_to(study, suite)) continue;
     const double cost = study.particle_steps();
     fmt::print("{:<30} {:<6} {:>5} {:>16.3g} {:>6.1f} s  {}\n", study.name, name(study.suite),
                study.runs.size(), cost, cost / particle_steps_per_second, study.claim);

@@ -6,12 +6,14 @@
 #include "reports/atomic_file.hpp"
 #include "reports/console_table.hpp"
 #include "reports/report.hpp"
+#include "reports/scoreboard.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/provenance_of.hpp"
 #include "verification/commands/terminal.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/flows/reference_store.hpp"
 #include "verification/study/interruption.hpp"
+#include "verification/study/scoreboard_reader.hpp"
 #include "verification/study/study_reader.hpp"
 #include "verification/suite/run_suite.hpp"
 
@@ -25,7 +27,7 @@ std::vector<Study> chosen_studies(const RunOptions& options) {
   std::vector<Study> chosen;
   if (options.names.empty()) {
     for (Study& study : read_studies(options.studies))
-      if (study.suite <= suite) chosen.push_back(std::move(study));
+      if (restrict_to(study, suite)) chosen.push_back(std::move(study));
     return chosen;
   }
   for (const std::string& name : options.names) {
@@ -38,7 +40,7 @@ std::vector<Study> chosen_studies(const RunOptions& options) {
     Study study = read_study(file);
     if (std::ranges::any_of(chosen, [&](const Study& other) { return other.name == study.name; }))
       throw ConfigError("study '" + study.name + "' is named twice");
-    if (study.suite <= suite) chosen.push_back(std::move(study));
+    if (restrict_to(study, suite)) chosen.push_back(std::move(study));
   }
   return chosen;
 }
@@ -109,7 +111,8 @@ int run_command(const RunOptions& options) {
   cache.prune();
   const reports::ReportOutcome report = reports::write_report(options.out, {kept, jobs});
 
-  fmt::print("\n{}", reports::console_table(outcome.results.checks, colour));
+  const auto lines = reports::without_expected_outcomes(outcome.results);
+  fmt::print("\n{}", reports::console_table(lines, colour, outcome.results.checks.size() - lines.size()));
   for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
   if (const std::string warning = cache.warning(); !warning.empty())
     fmt::print(stderr, "warning: {}\n", warning);

@@ -40,6 +40,7 @@ struct StudyData {
   std::vector<reports::CheckRecord> checks;
   std::vector<reports::ClaimRecord> claims;
   std::vector<reports::MatrixRecord> matrix;
+  std::vector<reports::ScoreRecord> scores;
 
   [[nodiscard]] std::vector<const RunData*> runs_of(const std::string& variant) const {
     std::vector<const RunData*> found;

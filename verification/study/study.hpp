@@ -1,11 +1,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reports/records.hpp"
 #include "verification/config/scene_config.hpp"
+#include "verification/study/scoreboard.hpp"
 
 namespace verification {
 
@@ -51,14 +53,15 @@ struct CheckSpec {
   std::string kind;
   std::vector<std::string> variants;  ///< that it speaks of
   std::vector<Location> locations;
-  std::string norm;           ///< "l1", "l2", "linf"
-  std::vector<double> times;  ///< [s]
-  std::string level;          ///< "finest", "coarsest", "all", or the end of a run's name, e.g. "n20"
-  std::string against;        ///< variant to compare with
-  std::string quantity;       ///< conserved quantity, or one of checks/quantities.hpp
-  double tolerance = 0;       ///< half width of a band about each variant's own theory
-  double place = 0;           ///< fraction of the gap
-  std::string claim;          ///< that this check is evidence for; "" for none
+  std::string norm;            ///< "l1", "l2", "linf"
+  std::vector<double> times;   ///< [s]
+  std::string level;           ///< "finest", "coarsest", "all", or the end of a run's name, e.g. "n20"
+  std::string against;         ///< variant to compare with
+  std::string quantity;        ///< conserved quantity, or one of checks/quantities.hpp
+  double tolerance = 0;        ///< half width of a band about each variant's own theory
+  double place = 0;            ///< fraction of the gap
+  double stability_limit = 0;  ///< of nu dt/h^2, for chatter
+  std::string claim;           ///< that this check is evidence for; "" for none
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   std::string reason;
@@ -85,6 +88,7 @@ struct Study {
   std::vector<CheckSpec> checks;
   std::vector<ClaimSpec> claims;
   std::vector<reports::FigureRecord> figures;
+  std::optional<Scoreboard> scoreboard;  ///< of a hard case
 
   [[nodiscard]] double particle_steps() const;
   /// Runs of one variant, coarse to fine.

@@ -8,6 +8,7 @@
 #include "verification/config/config_error.hpp"
 #include "verification/study/figure_reader.hpp"
 #include "verification/study/scheme_matrix.hpp"
+#include "verification/study/scoreboard_reader.hpp"
 
 namespace verification {
 namespace {
@@ -107,11 +108,10 @@ void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
       study.variants.push_back(entry.variant);
       plan_runs(study, base.overlaid_with(scheme, "scheme " + entry.variant), entry.variant);
     }
-    return;
   }
   std::vector<TomlTable> variants = root.tables("variant");
 
-  if (variants.empty()) {
+  if (variants.empty() && !study.matrix) {
     study.variants = {""};
     plan_runs(study, base, "");
     return;
@@ -213,12 +213,17 @@ Study read_study(const std::filesystem::path& file) {
   for (const std::string& key : scene_tables()) root.accept(key);
   read_variants(study, root, root.restricted_to(scene_tables()));
   require_comparable(root, study);
+  read_scoreboard(root, study);
   for (TomlTable& table : root.tables("check")) study.checks.push_back(read_check(table, study));
   if (study.checks.empty())
     root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");
   for (TomlTable& table : root.tables("statement")) study.claims.push_back(read_claim(table));
   require_evidence(root, study);
   for (TomlTable& table : root.tables("figure")) study.figures.push_back(read_figure(table, study));
+  if (!study.figures.empty() && study.scoreboard &&
+      !(study.scoreboard->in_full.empty() && study.scoreboard->in_quick.empty()))
+    root.fail("figure",
+              "cannot show a study of which a lesser suite runs a part; remove it, or in_full and in_quick");
   root.refuse_unknown_keys();
   return study;
 }

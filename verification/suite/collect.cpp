@@ -47,6 +47,7 @@ reports::Results collect(const std::vector<const StudyData*>& studies) {
     append(results.checks, data->checks);
     append(results.claims, data->claims);
     append(results.matrix, data->matrix);
+    append(results.scores, data->scores);
     append(results.figures, study.figures);
   }
   std::ranges::stable_sort(results.claims, {}, place_in_paper);

@@ -13,6 +13,7 @@
 #include "verification/study/run_external.hpp"
 #include "verification/study/run_simulation.hpp"
 #include "verification/study/scheme_matrix.hpp"
+#include "verification/study/scores.hpp"
 #include "verification/suite/collect.hpp"
 #include "verification/suite/schedule.hpp"
 
@@ -123,6 +124,7 @@ class SuiteRunner {
     measure_orders(data);
     evaluate_checks(data);
     data.matrix = matrix_records(data);
+    data.scores = score_records(data);
     for (RunData& run : data.runs) {
       run.profile = {};  // on disk by now; a suite would hold gigabytes otherwise
       run.history = {};
