@@ -91,8 +91,8 @@ std::string csv_text(const std::tuple<Column<Record, T>...>& columns, const std:
 /// Write csv_text(), whole or not at all. @throws IoError
 template <class Record, class... T>
 void write_csv(const std::filesystem::path& path, const std::tuple<Column<Record, T>...>& columns,
-               const std::vector<Record>& records) {
-  write_file(path, csv_text(columns, records));
+               const std::vector<Record>& records, Durability durability = Durability::Synced) {
+  write_file(path, csv_text(columns, records), durability);
 }
 
 /// Read every record of a file. Columns may come in any order and there may be more of them.

@@ -234,20 +234,20 @@ Results read_results(const std::filesystem::path& dir) {
   return results;
 }
 
-void write_results(const std::filesystem::path& dir, const Results& results) {
+void write_results(const std::filesystem::path& dir, const Results& results, Durability durability) {
   require_plain_names(results);
   ensure_directory(dir);
-  write_csv(dir / "studies.csv", study_columns, results.studies);
-  write_csv(dir / "runs.csv", run_columns, results.runs);
-  write_csv(dir / "errors.csv", error_columns, results.errors);
-  write_csv(dir / "levels.csv", level_columns, results.levels);
-  write_csv(dir / "orders.csv", order_columns, results.orders);
-  write_csv(dir / "checks.csv", check_columns, results.checks);
-  write_csv(dir / "timing.csv", timing_columns, results.timings);
-  write_csv(dir / "figures.csv", figure_columns, results.figures);
-  write_csv(dir / "claims.csv", claim_columns, results.claims);
-  write_csv(dir / "matrix.csv", matrix_columns, results.matrix);
-  write_csv(dir / "scoreboard.csv", score_columns, results.scores);
+  write_csv(dir / "studies.csv", study_columns, results.studies, durability);
+  write_csv(dir / "runs.csv", run_columns, results.runs, durability);
+  write_csv(dir / "errors.csv", error_columns, results.errors, durability);
+  write_csv(dir / "levels.csv", level_columns, results.levels, durability);
+  write_csv(dir / "orders.csv", order_columns, results.orders, durability);
+  write_csv(dir / "checks.csv", check_columns, results.checks, durability);
+  write_csv(dir / "timing.csv", timing_columns, results.timings, durability);
+  write_csv(dir / "figures.csv", figure_columns, results.figures, durability);
+  write_csv(dir / "claims.csv", claim_columns, results.claims, durability);
+  write_csv(dir / "matrix.csv", matrix_columns, results.matrix, durability);
+  write_csv(dir / "scoreboard.csv", score_columns, results.scores, durability);
 }
 
 void remove_tables(const std::filesystem::path& dir) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/atomic_file.hpp"
 #include "reports/records.hpp"
 
 // The files of a result directory. All functions throw IoError.
@@ -12,7 +13,8 @@ namespace reports {
 /// Every table of `dir` (studies, runs, errors, levels, orders, checks, timing, figures); all must be there.
 /// Names of runs and figures become file names, so anything but a plain name is refused here.
 Results read_results(const std::filesystem::path& dir);
-void write_results(const std::filesystem::path& dir, const Results& results);
+void write_results(const std::filesystem::path& dir, const Results& results,
+                   Durability durability = Durability::Synced);
 
 /// Removes the tables and reports of an earlier suite, checks.csv first, and what an interrupted write left
 /// (*.tmp).

@@ -84,6 +84,8 @@ int dispatch(int argc, char** argv) {
     sub->add_option("--out", scene.out, "Directory of the results")->required();
   }
 
+  solve_app->add_flag("--no-figures", scene.no_figures, "Draw nothing: for timing, and for many scenes");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

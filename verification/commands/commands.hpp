@@ -29,6 +29,7 @@ int run_command(const RunOptions& options);
 
 struct SceneOptions {
   std::filesystem::path scene, out;
+  bool no_figures = false;  ///< solve: leave the drawing to a later `report`
   std::string command_line;
 };
 int solve_command(const SceneOptions& options);

@@ -1,5 +1,7 @@
 #include "verification/config/scene_config.hpp"
 
+#include <algorithm>
+
 #include "verification/config/config_error.hpp"
 
 namespace verification {
@@ -97,7 +99,11 @@ const std::vector<std::string>& scene_tables() {
 
 std::vector<double> SceneConfig::reference_times() const {
   std::vector<double> times = outputs;
-  if (start > 0) times.insert(times.begin(), start);
+  if (start > 0) times.push_back(start);
+  times.insert(times.end(), more_reference_times.begin(), more_reference_times.end());
+  std::ranges::sort(times);
+  const auto repeated = std::ranges::unique(times);
+  times.erase(repeated.begin(), repeated.end());
   return times;
 }
 
@@ -136,6 +142,9 @@ SceneConfig read_scene_config(TomlTable root) {
   if (config.outputs.front() <= config.start) time.fail("outputs", "must lie beyond time.start");
   if (config.outputs.back() >= config.flow->latest())
     time.fail("end", "must lie before the end of the solution: the flow collapses at its 1/rate");
+  if (time.has("reference_times")) config.more_reference_times = time.numbers("reference_times");
+  for (const double t : config.more_reference_times)
+    if (!(t > 0)) time.fail("reference_times", "must be positive");
   config.time_step = read_time_step(time, config.scheme);
   config.history_samples = time.integer("history_samples", 100);
   if (config.history_samples < 1) time.fail("history_samples", "must be at least 1");
