@@ -134,6 +134,12 @@ TEST_CASE("profiles and histories survive writing and reading", "[reports]") {
   CHECK(same(profile[0].v, -0.0));
   CHECK(same(profile[0].u_exact, 1.0 / 3));
   CHECK(profile[0].v_exact == 4);
+  write_state(dir.path(), "r", {{1, "particles", 2, 3, 4, 5, 6, 7}});
+  const auto state = read_state(dir.path(), "r");
+  REQUIRE(state.size() == 1);
+  CHECK(state[0].y == 3);
+  CHECK(state[0].density_exact == 5);
+  CHECK(state[0].pressure == 6);
   write_history(dir.path(), "r", {{1, 2, 3, 4, 5, 6, 7, 8, 9}});
   const auto history = read_history(dir.path(), "r");
   REQUIRE(history.size() == 1);
@@ -205,7 +211,7 @@ TEST_CASE("a bad file is named with line and column", "[reports]") {
 TEST_CASE("names that would lead out of the directory are refused", "[reports]") {
   TemporaryDirectory dir;
   for (const char* name :
-       {"", ".", "..", "../x", "a/b", "/etc/passwd", "a b", "x.history", "a\nb", "ü", ".hidden"}) {
+       {"", ".", "..", "../x", "a/b", "/etc/passwd", "a b", "x.history", "x.state", "a\nb", "ü", ".hidden"}) {
     CHECK_FALSE(is_plain_name(name));
     CHECK_THROWS_AS(write_profile(dir.path(), name, {}), IoError);
     CHECK_THROWS_AS(read_history(dir.path(), name), IoError);

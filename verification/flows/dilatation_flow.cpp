@@ -1,13 +1,18 @@
 #include "verification/flows/dilatation_flow.hpp"
 
+#include <limits>
+
 namespace verification {
 namespace {
 
 class DilatationField final : public ExactField {
  public:
-  DilatationField(int axis, std::shared_ptr<const reference::UniformDilatation> flow)
-      : axis_(axis), flow_(std::move(flow)) {}
-  [[nodiscard]] Vec2 velocity(const Vec2& x, double t, Location) const override {
+  DilatationField(int axis, double length, std::shared_ptr<const reference::UniformDilatation> flow)
+      : axis_(axis), length_(length), flow_(std::move(flow)) {}
+  /// NaN at grid samples that the fluid has left.
+  [[nodiscard]] Vec2 velocity(const Vec2& x, double t, Location location) const override {
+    if (location == Location::Grid && x[axis_] > length_ * flow_->stretch(t))
+      return Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
     return flow_->velocity(x[axis_], t) * unit(axis_);
   }
   [[nodiscard]] std::optional<double> density(const Vec2&, double t) const override {
@@ -22,6 +27,7 @@ class DilatationField final : public ExactField {
 
  private:
   int axis_;
+  double length_;  // at t = 0 [m]
   std::shared_ptr<const reference::UniformDilatation> flow_;
 };
 
@@ -45,7 +51,8 @@ mpm::Scene DilatationFlow::scene(const Discretisation& d) const {
     mpm::Side wall;
     wall.periodic = false;
     wall.velocity = [=, flow = solution_](double t) -> Vec2 { return flow->velocity(x, t) * unit(across); };
-    // Of the fluid that is there, not of the place: nodal accelerations follow the material, which flies free.
+    // Of the fluid that is there, not of the place: nodal accelerations follow the material, which flies
+    // free.
     wall.acceleration = [](double) -> Vec2 { return Vec2::Zero(); };
     return wall;
   };
@@ -59,7 +66,7 @@ mpm::Scene DilatationFlow::scene(const Discretisation& d) const {
 }
 
 std::shared_ptr<const ExactField> DilatationFlow::exact(const std::vector<double>&) const {
-  return std::make_shared<DilatationField>(parameters_.axis, solution_);
+  return std::make_shared<DilatationField>(parameters_.axis, parameters_.length, solution_);
 }
 
 Probe DilatationFlow::probe() const {
