@@ -100,7 +100,7 @@ std::string notes(const std::vector<ScoreRecord>& scores, const CaseSummary& c) 
                        number(any->energy_upper));
   std::string text = fmt::format(
       "<h3 id=\"board-{}\">{}</h3>\n<p>{} survived, {} degraded, {} diverged, {} unexpected. Degraded: error "
-      "({}) above {}{}. <span class=\"faint\">{}. Study <a href=\"#{}\">{}</a>.</span></p>\n<ul>\n",
+      "({}) above {}{}. <span class=\"faint\">Why: {}. Study <a href=\"#{}\">{}</a>.</span></p>\n<ul>\n",
       html_anchor(c.study), html_text(c.hard_case), c.survived, c.degraded, c.diverged, c.unexpected,
       html_text(any->location), number(any->degraded_above), band, html_text(any->thresholds),
       html_anchor(c.study), html_text(c.study));

@@ -255,7 +255,7 @@ void remove_tables(const std::filesystem::path& dir) {
   // checks.csv goes first: without it nobody takes what is left for a result.
   for (const char* name :
        {"checks.csv", "report.html", "report.md", "junit.xml", "studies.csv", "runs.csv", "errors.csv",
-        "levels.csv", "orders.csv", "timing.csv", "figures.csv", "claims.csv", "matrix.csv"})
+        "levels.csv", "orders.csv", "timing.csv", "figures.csv", "claims.csv", "matrix.csv", "scoreboard.csv"})
     std::filesystem::remove(dir / name, ignored);
   for (const char* part : {".", "profiles", "scenes", "figures"})
     for (const auto& entry : std::filesystem::directory_iterator(dir / part, ignored))
@@ -303,7 +303,7 @@ void write_state(const std::filesystem::path& dir, const std::string& run,
                  const std::vector<StateRow>& rows) {
   const auto path = profile_path(dir, run, ".state.csv");
   ensure_directory(path.parent_path());
-  write_csv(path, state_columns, rows);
+  keep_file(path, csv_text(state_columns, rows));
 }
 
 }  // namespace reports

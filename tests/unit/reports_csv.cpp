@@ -71,6 +71,9 @@ TEST_CASE("every table survives writing and reading", "[reports]") {
   out.timings = {{"a", 1.5, 2.5e7}};
   out.figures = {
       {"fig", "s", "history", "title; with 'semicolon'", "a;b", "A;B", "y", "u", "grid;particles", "l2"}};
+  out.scores = {{"s", "a, case", "linear_flip_usf", "linear", "flip", "usf", "diverged", "diverged", "pass",
+                 third, not_a_number, tiny, 0.1, 0.5, infinity, "grid", "diverged at t = 1 s: \"why\"",
+                 "because", "so"}};
   write_results(dir.path(), out);
   const Results in = read_results(dir.path());
 
@@ -115,10 +118,17 @@ TEST_CASE("every table survives writing and reading", "[reports]") {
   CHECK(in.figures[0].title == out.figures[0].title);
   CHECK(in.figures[0].norm == "l2");
 
+  REQUIRE(in.scores.size() == 1);
+  CHECK(in.scores[0].hard_case == "a, case");
+  CHECK(same(in.scores[0].t_diverged, third));
+  CHECK(std::isnan(in.scores[0].error));
+  CHECK(in.scores[0].thresholds == "so");
+
   // Every field, also those not named above: a second round must give the same bytes.
   TemporaryDirectory again;
   write_results(again.path(), in);
-  for (const char* name : {"studies", "runs", "errors", "levels", "orders", "checks", "timing", "figures"}) {
+  for (const char* name :
+       {"studies", "runs", "errors", "levels", "orders", "checks", "timing", "figures", "scoreboard"}) {
     const std::string file = std::string(name) + ".csv";
     CHECK(read_file(dir / file) == read_file(again / file));
   }
