@@ -17,7 +17,8 @@ namespace mpm {
 inline bool lanes_cover(const Scene& scene, const Scheme& scheme) {
   using T = Scheme::Transfer;
   using S = Scheme::Stepping;
-  const bool transfer = scheme.transfer == T::Flip || scheme.transfer == T::Pic || scheme.transfer == T::FlipBlend;
+  const bool transfer =
+      scheme.transfer == T::Flip || scheme.transfer == T::Pic || scheme.transfer == T::FlipBlend;
   const bool stepping = scheme.stepping == S::Usf || scheme.stepping == S::Usl || scheme.stepping == S::Musl;
   return transfer && stepping && !scene.acceleration_field;
 }
@@ -224,8 +225,10 @@ class LaneSolver final : public Simulation {
       const auto a = static_cast<std::size_t>(c);
       constexpr int size = (Basis::degree + 1) * (Basis::degree + 1);
       for (int cell = 0; cell < axis(c).cells; ++cell)
-        polynomials[a].insert(polynomials[a].end(), axis(c).polynomials(cell), axis(c).polynomials(cell) + size);
-      setup.axis[a] = {axis(c).cells, axis(c).periodic, axis(c).length, axis(c).inverse_h, polynomials[a].data()};
+        polynomials[a].insert(polynomials[a].end(), axis(c).polynomials(cell),
+                              axis(c).polynomials(cell) + size);
+      setup.axis[a] = {axis(c).cells, axis(c).periodic, axis(c).length, axis(c).inverse_h,
+                       polynomials[a].data()};
     }
     return make_kernel(setup);
   }
@@ -244,9 +247,7 @@ class LaneSolver final : public Simulation {
         if (!wall) continue;
         const std::size_t from[2] = {static_cast<std::size_t>(wall->x_from),
                                      static_cast<std::size_t>(wall->y_from)};
-        wall_nodes_.push_back({node(k, l),
-                               k != ij[0] || l != ij[1],
-                               {from[axis_of(0)], from[axis_of(1)]}});
+        wall_nodes_.push_back({node(k, l), k != ij[0] || l != ij[1], {from[axis_of(0)], from[axis_of(1)]}});
       }
   }
 

@@ -13,14 +13,11 @@ struct TaitPressure {
   double inverse_reference_density;  ///< 1/rho0 [m3/kg]
 
   /// rho_new = rho/(1 + dt tr D) (below the paper's Eq. 23, misprint corrected) [kg/m3]
-  template <class Real>
-    requires(!std::is_integral_v<Real>)
-  [[nodiscard]] Real advance_density(const Real& density, const Real& dilatation_rate, double dt) const {
+  [[nodiscard]] double advance_density(double density, double dilatation_rate, double dt) const {
     return density / (1 + dt * dilatation_rate);
   }
   template <class Real>
-    requires(!std::is_integral_v<Real>)
-  [[nodiscard]] Real pressure(const Real& density) const {
+  requires(!std::is_integral_v<Real>) [[nodiscard]] Real pressure(const Real& density) const {
     const Real r = density * inverse_reference_density;
     const Real r3 = r * r * r;
     return bulk_modulus * (r3 * r3 * r - 1);

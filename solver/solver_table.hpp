@@ -37,7 +37,8 @@ std::unique_ptr<Simulation> make_solver_on(const Scene& scene, const Scheme& sch
 /// elsewhere.
 template <int degree>
 std::unique_ptr<Simulation> make_solver_of_degree(const Scene& scene, const Scheme& scheme, int threads) {
-  if (scene.periodic(0) && scene.cells[0] == 1) return make_solver_on<StripBSpline<degree>>(scene, scheme, threads);
+  if (scene.periodic(0) && scene.cells[0] == 1)
+    return make_solver_on<StripBSpline<degree>>(scene, scheme, threads);
   return make_solver_on<BSpline<degree>>(scene, scheme, threads);
 }
 

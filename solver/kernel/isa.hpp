@@ -12,7 +12,8 @@ namespace mpm {
 /// "baseline" (the compiler's default), and on x86-64 "avx2" and "avx512" (the levels v3 and v4 of its ABI).
 std::vector<std::string> available_isas();
 
-/// The one in use: the last of available_isas(), unless MPM_ISA in the environment or use_isa() names another.
+/// The one in use: the last of available_isas(), unless MPM_ISA in the environment or use_isa() names
+/// another.
 std::string current_isa();
 
 /// From now on simulations start on this one. Throws SceneError, which lists the available ones, for others.

@@ -35,11 +35,11 @@ struct LineOfCells {
 /// that images of a periodic node have entries of their own, all of the same value.
 struct NodeFields {
   int stride, rows;
-  double* mass;                 ///< m_i [kg/m]
-  double* velocity[2];          ///< v_i [m/s]
-  double* mapped[2];            ///< velocity of the updated particles mapped back (MUSL) [m/s]
-  double* force[2];             ///< f_i of the stress alone [N/m]
-  double* acceleration[2];      ///< a_i [m/s2]
+  double* mass;             ///< m_i [kg/m]
+  double* velocity[2];      ///< v_i [m/s]
+  double* mapped[2];        ///< velocity of the updated particles mapped back (MUSL) [m/s]
+  double* force[2];         ///< f_i of the stress alone [N/m]
+  double* acceleration[2];  ///< a_i [m/s2]
 };
 
 /// What the particles' move found.
@@ -80,8 +80,8 @@ class Kernel {
 };
 
 struct KernelSetup {
-  int degree;     ///< of the basis, 1 to 3
-  bool strip;     ///< one periodic cell across the lanes, in which nothing varies
+  int degree;  ///< of the basis, 1 to 3
+  bool strip;  ///< one periodic cell across the lanes, in which nothing varies
   std::array<LineOfCells, 2> axis;
   Rheology rheology;
   bool has_pressure;

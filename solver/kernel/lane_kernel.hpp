@@ -20,10 +20,11 @@ class LaneKernel final : public Kernel {
         pressure_(setup.pressure),
         has_pressure_(setup.has_pressure),
         team_(setup.team),
-        chunks_(static_cast<int>(cells_.blocks().size()) * width, basis_.offset(Basis::nodes - 1)),
+        chunks_(cells_.count(), basis_.offset(Basis::nodes - 1)),
         found_(static_cast<std::size_t>(chunks_.count)) {
     // Blocks at the end read and write beyond the last node, within one width.
-    const int size = std::max(rows_ * cells_.stride(), chunks_.cells) + basis_.offset(Basis::nodes - 1) + width;
+    const int size =
+        std::max(rows_ * cells_.stride(), chunks_.cells) + basis_.offset(Basis::nodes - 1) + width;
     for (auto& field : fields_) field.assign(static_cast<std::size_t>(size / width + 1), Lanes(0));
   }
 
@@ -41,7 +42,7 @@ class LaneKernel final : public Kernel {
   /// m_i = sum_p N_ip m_p, v_i = sum_p N_ip m_p v_p / m_i (paper Eqs. 14-15).
   void map_velocity(NodalVelocity to) override {
     double* const v_i[2] = {velocity_field(to)[0], velocity_field(to)[1]};
-    scatter<3>({field(mass), v_i[0], v_i[1]}, [&](Block&) {
+    scatter<3>({field(mass), v_i[0], v_i[1]}, [&](const Block&) {
       return [](const Slot& p, const CellWeights<Basis>& n_p, auto& sum) {
         n_p.values([&](int i, Lanes n) {
           const Lanes n_m = n * p.mass;
@@ -52,30 +53,30 @@ class LaneKernel final : public Kernel {
       };
     });
     each_node([=, m_i = field(mass)](int i) {
-      v_i[0][i] = m_i[i] > 0 ? v_i[0][i] / m_i[i] : 0;
-      v_i[1][i] = m_i[i] > 0 ? v_i[1][i] / m_i[i] : 0;
+      const Lanes m = load(m_i + i);
+      for (int c : {0, 1}) store(v_i[c] + i, select(m > 0, load(v_i[c] + i) / m, 0));
     });
   }
 
   void update_stress(NodalVelocity from, double dt) override {
     with_fluid([&](const auto& law, const auto& pressure) {
-      each_block([&](Block& block, Found&) {
+      each_block([&](const Block& block, Found&) {
         const NodesOfCells<Basis> v(basis_, block, velocity_field(from).data());
-        for (Slot& p : block.slots)
+        for (Slot& p : cells_.slots(block))
           set_stress(p, CellWeights<Basis>(basis_, block, p.x), v, law, pressure, dt);
       });
     });
   }
 
   void forces() override {
-    scatter<2>({field(force), field(force + 1)}, [&](Block&) {
+    scatter<2>({field(force), field(force + 1)}, [&](const Block&) {
       return [](const Slot& p, const CellWeights<Basis>& n_p, auto& sum) { add_force(p, n_p, sum); };
     });
   }
 
   void update_stress_and_forces(double dt) override {
     with_fluid([&](const auto& law, const auto& pressure) {
-      scatter<2>({field(force), field(force + 1)}, [&](Block& block) {
+      scatter<2>({field(force), field(force + 1)}, [&](const Block& block) {
         const NodesOfCells<Basis> v(basis_, block, velocity_field(NodalVelocity::Current).data());
         return [=, &law, &pressure](Slot& p, const CellWeights<Basis>& n_p, auto& sum) {
           set_stress(p, n_p, v, law, pressure, dt);
@@ -86,17 +87,21 @@ class LaneKernel final : public Kernel {
   }
 
   void accelerate(const double b[2], double dt) override {
-    for (int c : {0, 1})
-      each_node([=, b_c = b[c], m = field(mass), f = field(force + c), a = field(acceleration + c),
-                 v = field(velocity + c)](int i) {
-        a[i] = m[i] > 0 ? f[i] / m[i] + b_c : 0;
-        v[i] += dt * a[i];
-      });
+    double* const f_i[2] = {field(force), field(force + 1)};
+    double* const a_i[2] = {field(acceleration), field(acceleration + 1)};
+    double* const v_i[2] = {field(velocity), field(velocity + 1)};
+    const double b_0 = b[0], b_1 = b[1];
+    each_node([=, m_i = field(mass)](int i) {
+      const Lanes m = load(m_i + i), g[2] = {b_0, b_1};
+      for (int c : {0, 1}) {
+        const Lanes a = select(m > 0, load(f_i[c] + i) / m + g[c], 0);
+        store(a_i[c] + i, a);
+        store(v_i[c] + i, load(v_i[c] + i) + dt * a);
+      }
+    });
   }
 
-  void take(double flip_fraction, double dt) override {
-    gather_from_nodes<true, false>(flip_fraction, dt);
-  }
+  void take(double flip_fraction, double dt) override { gather_from_nodes<true, false>(flip_fraction, dt); }
   Motion move(double dt) override { return gather_from_nodes<false, true>(0, dt); }
   Motion take_and_move(double flip_fraction, double dt) override {
     return gather_from_nodes<true, true>(flip_fraction, dt);
@@ -105,8 +110,14 @@ class LaneKernel final : public Kernel {
   void gather(PointState* points) const override { cells_.gather(points); }
 
  private:
-  enum { mass, velocity, mapped = velocity + 2, force = mapped + 2, acceleration = force + 2,
-         field_count = acceleration + 2 };
+  enum {
+    mass,
+    velocity,
+    mapped = velocity + 2,
+    force = mapped + 2,
+    acceleration = force + 2,
+    field_count = acceleration + 2
+  };
 
   /// What a chunk of cells reports when its particles have moved.
   struct alignas(64) Found {
@@ -121,8 +132,8 @@ class LaneKernel final : public Kernel {
     return {field(f), field(f + 1)};
   }
 
-  /// D from the nodal velocity; density rho/(1 + dt tr D); sigma = 2 mu D - (2/3 mu tr D + P) I (paper Eqs.
-  /// 21 to 25).
+  /// D from the nodal velocity; volume V (1 + dt tr D), density m/V; sigma = 2 mu D - (2/3 mu tr D + P) I
+  /// (paper Eqs. 21 to 25).
   template <class Law, class Pressure>
   static void set_stress(Slot& p, const CellWeights<Basis>& n_p, const NodesOfCells<Basis>& v, const Law& law,
                          const Pressure& pressure, double dt) {
@@ -141,19 +152,18 @@ class LaneKernel final : public Kernel {
       mu = law.viscosity();
     Lanes isotropic = -(2.0 / 3.0) * mu * dilatation;
     if constexpr (Pressure::varies) {
-      p.density = select(p.mass > 0, pressure.advance_density(p.density, dilatation, dt), p.density);
-      isotropic = isotropic - pressure.pressure(p.density);
+      p.volume = p.volume * (1 + dt * dilatation);
+      isotropic = isotropic - pressure.pressure(p.mass / select(p.mass > 0, p.volume, 1));
     }
     p.stress[0] = 2 * mu * d_00 + isotropic;
     p.stress[1] = 2 * mu * d_11 + isotropic;
     p.stress[2] = 2 * mu * shear;
   }
 
-  /// f_i -= (m_p/rho_p) sigma_p grad N_ip (paper Eq. 17)
+  /// f_i -= V_p sigma_p grad N_ip, V_p = m_p/rho_p (paper Eq. 17)
   template <class Sum>
   static void add_force(const Slot& p, const CellWeights<Basis>& n_p, Sum& sum) {
-    const Lanes volume = p.mass / p.density;
-    const Lanes s_00 = volume * p.stress[0], s_11 = volume * p.stress[1], s_01 = volume * p.stress[2];
+    const Lanes s_00 = p.volume * p.stress[0], s_11 = p.volume * p.stress[1], s_01 = p.volume * p.stress[2];
     n_p.gradients([&](int i, Lanes dn_0, Lanes dn_1) {
       sum[0][i] -= s_00 * dn_0 + s_01 * dn_1;
       sum[1][i] -= s_01 * dn_0 + s_11 * dn_1;
@@ -163,12 +173,12 @@ class LaneKernel final : public Kernel {
   /// G2P: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p); x_p += dt v(x_p) (paper Eqs. 18-20).
   template <bool takes, bool moves>
   Motion gather_from_nodes(double flip, double dt) {
-    each_block([=, this](Block& block, Found& found) {
+    each_block([=, this](const Block& block, Found& found) {
       const NodesOfCells<Basis> v(basis_, block, velocity_field(NodalVelocity::Current).data());
       double* const a_i[2] = {field(acceleration), field(acceleration + 1)};
       const NodesOfCells<Basis> a(basis_, block, a_i);
       Mask left;
-      for (Slot& p : block.slots) {
+      for (Slot& p : cells_.slots(block)) {
         Lanes v_x[2] = {0, 0}, a_x[2] = {0, 0};
         CellWeights<Basis>(basis_, block, p.x).values([&](int i, Lanes n) {
           for (int c : {0, 1}) v_x[c] += n * v.at[c][i];
@@ -188,7 +198,7 @@ class LaneKernel final : public Kernel {
           }
           left = left | !stays;
           found.energy += p.v[0] * p.v[0] + p.v[1] * p.v[1];
-          found.thin = found.thin | !(p.density > 0);
+          found.thin = found.thin | (occupied & !(p.volume > 0));
         }
       }
       if (moves && left.any()) list_movers(block, found.left);
@@ -202,8 +212,8 @@ class LaneKernel final : public Kernel {
       for (int k = 0; k < block.count[lane]; ++k) {
         bool stays = true;
         for (int c : {0, 1}) {
-          const double s =
-              block.slots[static_cast<std::size_t>(k)].x[c][lane] * basis_.inverse_h[c] - block.cell[c][lane];
+          const double s = cells_.slots(block)[static_cast<std::size_t>(k)].x[c][lane] * basis_.inverse_h[c] -
+                           block.cell[c][lane];
           stays &= s >= 0 && s < 1;
         }
         if (!stays) list.push_back({block.first_node / width, lane, k});
@@ -226,17 +236,17 @@ class LaneKernel final : public Kernel {
   /// sums, (slot, weights, sum[field][node]).
   template <int fields, class Give>
   void scatter(double* const (&nodes)[fields], Give&& give) {
-    for (double* node : nodes) each_node([=](int i) { node[i] = 0; });
+    for (double* node : nodes) each_node([=](int i) { store(node + i, 0); });
     chunks_.each_in_two_turns(team_, [&](int chunk) {
       TileSums<Basis, fields> sums;
       for (int first = chunks_.begin(chunk); first < chunks_.end(chunk); first += tile) {
         const int cells = std::min(tile, chunks_.end(chunk) - first);
         for (int cell = 0; cell < cells; cell += width) {
-          Block& block = cells_.blocks()[static_cast<std::size_t>((first + cell) / width)];
+          const Block& block = cells_.block(first + cell);
           Lanes sum[fields][Basis::nodes];
           for (auto& row : sum) unroll<Basis::nodes>([&](int i) { row[i] = 0; });
           const auto add = give(block);
-          for (Slot& p : block.slots) add(p, CellWeights<Basis>(basis_, block, p.x), sum);
+          for (Slot& p : cells_.slots(block)) add(p, CellWeights<Basis>(basis_, block, p.x), sum);
           sums.put(cell, sum);
         }
         sums.add_to(nodes, basis_, first, cells);
@@ -253,17 +263,17 @@ class LaneKernel final : public Kernel {
       found.energy = 0;
       found.thin = {};
       for (int cell = chunks_.begin(chunk); cell < chunks_.end(chunk); cell += width)
-        f(cells_.blocks()[static_cast<std::size_t>(cell / width)], found);
+        f(cells_.block(cell), found);
     });
   }
 
-  /// f(i) for all nodes.
+  /// f(i) for the nodes i to i + width - 1, until all are done.
   template <class F>
   void each_node(F&& f) {
     const int size = rows_ * cells_.stride();
     chunks_.each(team_, [&](int chunk) {
       const int end = chunk + 1 == chunks_.count ? size : std::min(size, chunks_.end(chunk));
-      for (int i = chunks_.begin(chunk); i < end; ++i) f(i);
+      for (int i = chunks_.begin(chunk); i < end; i += width) f(i);
     });
   }
 
@@ -303,7 +313,7 @@ class LaneKernel final : public Kernel {
   ThreadTeam* team_;
   Chunks chunks_;
   std::vector<Found> found_;
-  std::vector<Lanes> fields_[field_count];
+  LargeArray<Lanes> fields_[field_count];
 };
 
 }  // namespace mpm::MPM_ISA

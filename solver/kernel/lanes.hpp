@@ -30,7 +30,10 @@ Vector MPM_VECTOR_MATH(log)(Vector);
 /// Calls f(0) to f(n - 1), written out: what f indexes can stay in registers.
 template <int n, class F>
 [[gnu::always_inline]] inline void unroll(F&& f) {
-  [&]<int... k>(std::integer_sequence<int, k...>) { (f(k), ...); }(std::make_integer_sequence<int, n>{});
+  [&]<int... k>(std::integer_sequence<int, k...>) {
+    (f(k), ...);
+  }
+  (std::make_integer_sequence<int, n>{});
 }
 
 /// `width` doubles in one register: one of each of as many neighbouring cells.
@@ -69,12 +72,20 @@ struct Mask {
   }
 };
 
-inline Mask operator<(Lanes a, Lanes b) { return {a.v < b.v}; }
-inline Mask operator>(Lanes a, Lanes b) { return {a.v > b.v}; }
-inline Mask operator>=(Lanes a, Lanes b) { return {a.v >= b.v}; }
+inline Mask operator<(Lanes a, Lanes b) {
+  return {a.v < b.v};
+}
+inline Mask operator>(Lanes a, Lanes b) {
+  return {a.v > b.v};
+}
+inline Mask operator>=(Lanes a, Lanes b) {
+  return {a.v >= b.v};
+}
 
 /// a where the mask says yes, b elsewhere.
-inline Lanes select(Mask mask, Lanes a, Lanes b) { return mask.bits ? a.v : b.v; }
+inline Lanes select(Mask mask, Lanes a, Lanes b) {
+  return mask.bits ? a.v : b.v;
+}
 
 inline Lanes load(const double* from) {
   using Unaligned = double __attribute__((vector_size(MPM_LANES * sizeof(double)), aligned(8), may_alias));
@@ -97,10 +108,16 @@ inline Lanes sqrt(Lanes x) {
   for (int lane = 0; lane < width; ++lane) root.v[lane] = std::sqrt(x.v[lane]);
   return root;
 }
-inline Lanes at_least(Lanes x, double bound) { return select(x < bound, bound, x); }
+inline Lanes at_least(Lanes x, double bound) {
+  return select(x < bound, bound, x);
+}
 #ifdef MPM_VECTOR_MATH
-inline Lanes exp(Lanes x) { return MPM_VECTOR_MATH(exp)(x.v); }
-inline Lanes log(Lanes x) { return MPM_VECTOR_MATH(log)(x.v); }
+inline Lanes exp(Lanes x) {
+  return MPM_VECTOR_MATH(exp)(x.v);
+}
+inline Lanes log(Lanes x) {
+  return MPM_VECTOR_MATH(log)(x.v);
+}
 #else
 inline Lanes exp(Lanes x) {
   for (int lane = 0; lane < width; ++lane) x.v[lane] = std::exp(x.v[lane]);

@@ -8,13 +8,11 @@ namespace mpm::MPM_ISA {
 /// Cells whose sums are kept before nodes add them up: they stay in the first or second cache.
 constexpr int tile = 256;
 
-/// What the particles of a tile give to the nodes of their own cells. Written cell by cell, read node by node:
-/// no two particles ever add to the same number at the same time.
+/// What the particles of a tile give to the nodes of their own cells. Written cell by cell, read node by
+/// node: no two particles ever add to the same number at the same time.
 template <class Basis, int fields>
 class TileSums {
  public:
-  TileSums() { std::memset(sums_, 0, sizeof sums_); }
-
   /// Stores the sums of a block that begins `cell` cells into the tile.
   void put(int cell, const Lanes (&sum)[fields][Basis::nodes]) {
     for (int f = 0; f < fields; ++f)
@@ -22,8 +20,11 @@ class TileSums {
   }
 
   /// Adds the sums of the first `cells` cells to the nodes, `first` being the first cell's first.
-  void add_to(double* const (&nodes)[fields], const Basis& basis, int first, int cells) const {
+  void add_to(double* const (&nodes)[fields], const Basis& basis, int first, int cells) {
     constexpr int along = Basis::support[0], across = Basis::support[1];
+    for (auto& field : sums_)
+      for (auto& of_node : field)
+        for (int n = 0; n < Basis::degree; ++n) of_node[margin - 1 - n] = of_node[margin + cells + n] = 0;
     for (int f = 0; f < fields; ++f)
       for (int l = 0; l < across; ++l) {
         double* row = nodes[f] + first + l * basis.stride;
@@ -36,7 +37,7 @@ class TileSums {
   }
 
  private:
-  static constexpr int margin = 8;  // at least the degree, and whole vectors
+  static constexpr int margin = 8;  // at least the degree, and whole vectors; read as zero
   alignas(64) double sums_[fields][Basis::nodes][margin + tile + margin];
 };
 

@@ -26,8 +26,8 @@ class ThreadTeam {
 
   std::mutex mutex_;
   std::condition_variable begun_, done_;
-  long loop_ = 0;    // number of the loop in work
-  int busy_ = 0;     // helpers that have not ended it
+  long loop_ = 0;  // number of the loop in work
+  int busy_ = 0;   // helpers that have not ended it
   bool over_ = false;
   int shares_ = 0;
   std::atomic<int> next_ = 0;

@@ -5,10 +5,11 @@
 #include <cstddef>
 #include <vector>
 
-// What the vector kernels are measured against: the paper's scheme (linear basis, FLIP, update stress first) as
-// one would write it down at first, an array of particles, an array of nodes, three scalar loops a step. It is
-// not made slow on purpose: everything is inlined, nothing is allocated in a step, the stress update and the
-// internal force share one visit to the nodes, as do G2P and the move, no pow or division is done twice.
+// What the vector kernels are measured against: the paper's scheme (linear basis, FLIP, update stress first)
+// as one would write it down at first, an array of particles, an array of nodes, three scalar loops a step.
+// It is not made slow on purpose: everything is inlined, nothing is allocated in a step, the stress update
+// and the internal force share one visit to the nodes, as do G2P and the move, no pow or division is done
+// twice.
 namespace plain {
 
 struct Particle {
@@ -42,8 +43,8 @@ class Loop {
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i)
         particles_.push_back({(i + 0.5) * channel.length / nx, (j + 0.5) * channel.height / ny, 0, 0,
-                              channel.density * channel.length * channel.height / (nx * ny), channel.density, 0,
-                              0, 0});
+                              channel.density * channel.length * channel.height / (nx * ny), channel.density,
+                              0, 0, 0});
   }
 
   [[nodiscard]] std::vector<Particle>& particles() { return particles_; }

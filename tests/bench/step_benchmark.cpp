@@ -85,7 +85,9 @@ BENCHMARK_CAPTURE(step, quadratic_power_law, scheme(B::Quadratic), PowerLaw, tru
 BENCHMARK_CAPTURE(step, cubic_newtonian, scheme(B::Cubic), Newtonian, true)->Args({paper, 1});
 BENCHMARK_CAPTURE(step, cubic_cross, scheme(B::Cubic), Cross, true)->Args({paper, 1});
 BENCHMARK_CAPTURE(step, cubic_power_law, scheme(B::Cubic), PowerLaw, true)->Args({paper, 1});
-BENCHMARK_CAPTURE(step, linear_no_pressure, scheme(B::Linear), Newtonian, false)->Args({1, 1})->Args({paper, 1});
+BENCHMARK_CAPTURE(step, linear_no_pressure, scheme(B::Linear), Newtonian, false)
+    ->Args({1, 1})
+    ->Args({paper, 1});
 BENCHMARK_CAPTURE(step, linear_usl, scheme(B::Linear, S::Usl), Newtonian, true)->Args({paper, 1});
 BENCHMARK_CAPTURE(step, linear_musl, scheme(B::Linear, S::Musl), Newtonian, true)->Args({paper, 1});
 // Wall time: with two threads that is what counts.
