@@ -18,7 +18,7 @@ class LumpedMass {
 
   /// field_i /= m_i, in place; a node without mass gets zero. `impose` sets the walls' values.
   template <class Impose>
-  void solve(const Grid& grid, VectorField& field, Impose&& impose) const {
+  void solve(const Grid& grid, VectorField& field, Impose&& impose, Nodal = Nodal::Velocity) const {
     for (std::size_t i = 0; i < grid.size(); ++i) {
       if (grid.mass[i] > 0)
         field[i] /= grid.mass[i];

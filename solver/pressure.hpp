@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace mpm {
 
 /// Tait equation of state P = K[(rho/rho0)^7 - 1] (paper Eq. 23) with density following the dilatation.
@@ -16,6 +18,10 @@ struct TaitPressure {
     const double r = density * inverse_reference_density;
     const double r3 = r * r * r;
     return bulk_modulus * (r3 * r3 * r - 1);
+  }
+  /// The density at which the pressure is P [kg/m3]; P > -K.
+  [[nodiscard]] double density(double pressure) const {
+    return std::pow(1 + pressure / bulk_modulus, 1.0 / 7) / inverse_reference_density;
   }
 };
 

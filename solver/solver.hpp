@@ -6,6 +6,7 @@
 
 #include "solver/boundary.hpp"
 #include "solver/implicit_viscosity.hpp"
+#include "solver/particle_reset.hpp"
 #include "solver/seeding.hpp"
 #include "solver/simulation.hpp"
 #include "solver/stress_update.hpp"
@@ -18,35 +19,27 @@ namespace mpm {
 template <class Basis, class Transfer>
 class Solver final : public Simulation {
  public:
-  Solver(const Scene& scene, Scheme::Stepping stepping, const Transfer& transfer)
+  Solver(const Scene& scene, const Scheme& scheme, const Transfer& transfer)
       : scene_(scene),
-        stepping_(stepping),
+        stepping_(scheme.stepping),
         transfer_(transfer),
         particles_(seed_particles(scene)),
         grid_(scene, Basis::degree),
         walls_(scene, grid_),
         mass_(grid_, walls_),
         update_stress_(make_stress_update<Basis>(scene.fluid)) {
-    if (stepping == Scheme::Stepping::ImplicitEuler || stepping == Scheme::Stepping::ImplicitSdirk2)
+    if (stepping_ == Scheme::Stepping::ImplicitEuler || stepping_ == Scheme::Stepping::ImplicitSdirk2)
       implicit_viscosity_ = make_implicit_viscosity(scene.fluid.rheology, grid_, walls_);
+    if (scheme.resets()) reset_.emplace(scene, scheme, grid_, walls_);
     start();
     (*update_stress_)(particles_, grid_, grid_.velocity, 0);
   }
 
   void advance(double t, double dt) override {
-    switch (stepping_) {
-      case Scheme::Stepping::Usf:
-        return step_usf(t, dt);
-      case Scheme::Stepping::Usl:
-        return step_usl(t, dt);
-      case Scheme::Stepping::Musl:
-        return step_musl(t, dt);
-      case Scheme::Stepping::Leapfrog:
-        return step_leapfrog(t, dt);
-      case Scheme::Stepping::ImplicitEuler:
-        return step_implicit_euler(t, dt);
-      case Scheme::Stepping::ImplicitSdirk2:
-        return step_implicit_sdirk2(t, dt);
+    step(t, dt);
+    if (reset_ && !breakdown_ && reset_->due(grid_, particles_, dt)) {
+      (*reset_)(t + dt, walls_, grid_, particles_);
+      (*update_stress_)(particles_, grid_, grid_.velocity, 0);
     }
   }
 
@@ -81,6 +74,23 @@ class Solver final : public Simulation {
 
  private:
   using Mass = typename Transfer::Mass;
+
+  void step(double t, double dt) {
+    switch (stepping_) {
+      case Scheme::Stepping::Usf:
+        return step_usf(t, dt);
+      case Scheme::Stepping::Usl:
+        return step_usl(t, dt);
+      case Scheme::Stepping::Musl:
+        return step_musl(t, dt);
+      case Scheme::Stepping::Leapfrog:
+        return step_leapfrog(t, dt);
+      case Scheme::Stepping::ImplicitEuler:
+        return step_implicit_euler(t, dt);
+      case Scheme::Stepping::ImplicitSdirk2:
+        return step_implicit_sdirk2(t, dt);
+    }
+  }
 
   /// The grid with the particles' velocity mapped to it and the walls' imposed.
   [[nodiscard]] Grid mapped_grid(double t) const {
@@ -263,7 +273,7 @@ class Solver final : public Simulation {
   template <class Impose>
   void solve_acceleration(Impose&& impose) {
     grid_.acceleration = grid_.force;
-    mass_.solve(grid_, grid_.acceleration, impose);
+    mass_.solve(grid_, grid_.acceleration, impose, Nodal::Acceleration);
   }
 
   /// Velocity at the middle of the step, by Euler.
@@ -350,6 +360,7 @@ class Solver final : public Simulation {
   Mass mass_;
   StencilTable table_;
   std::unique_ptr<StressUpdate> update_stress_;
+  std::optional<ParticleReset<Basis, Transfer>> reset_;
   std::unique_ptr<ImplicitViscosity> implicit_viscosity_;
   VectorField start_velocity_, stage_velocity_, particle_acceleration_;
   Vec2 body_force_ = Vec2::Zero(), impulse_ = Vec2::Zero();

@@ -35,6 +35,8 @@ class ExactField {
   [[nodiscard]] virtual Vec2 velocity(const Vec2& x, double t, Location location) const = 0;
   /// Shear rate |du/dy| of a channel [1/s]; none for other flows.
   [[nodiscard]] virtual std::optional<double> shear_rate(const Vec2&, double) const { return std::nullopt; }
+  /// Kinetic energy of the whole scene per unit depth [J/m]; none where it is not known.
+  [[nodiscard]] virtual std::optional<double> kinetic_energy(double) const { return std::nullopt; }
   /// One line: what it is, and the error that it states for itself.
   [[nodiscard]] virtual std::string description() const = 0;
 };
@@ -73,8 +75,13 @@ class Flow {
     return nullptr;
   }
 
-  /// Velocity that errors are divided by [m/s].
+  /// Velocity that errors are divided by, unless it changes with time [m/s].
   [[nodiscard]] virtual double velocity_scale() const = 0;
+  /// The same at time t [s], for flows that decay or grow [m/s].
+  [[nodiscard]] virtual double velocity_scale_at(double t) const {
+    static_cast<void>(t);
+    return velocity_scale();
+  }
   /// Whether shear rate and viscosity across the flow are of interest (channels).
   [[nodiscard]] virtual bool has_shear_profile() const { return false; }
   /// Velocity at the probe in the steady state [m/s]; NaN where there is none.

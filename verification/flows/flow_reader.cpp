@@ -5,6 +5,7 @@
 
 #include "verification/flows/box_flow.hpp"
 #include "verification/flows/channel_flow.hpp"
+#include "verification/flows/taylor_green_flow.hpp"
 #include "verification/flows/wave_flow.hpp"
 
 namespace verification {
@@ -68,6 +69,18 @@ FlowPointer read_shear_wave(TomlTable& table, const FluidConfig& fluid) {
   return std::make_shared<ShearWaveFlow>(p);
 }
 
+FlowPointer read_taylor_green(TomlTable& table, const FluidConfig& fluid) {
+  const auto nu = fluid.curve.newtonian();
+  if (!nu) table.fail("flow", "has an exact solution for a Newtonian fluid only");
+  if (!fluid.solver.pressure)
+    table.fail("flow", "a vortex needs fluid.pressure = true: pressure balances its advection");
+  TaylorGreenFlowParameters p{table.positive("period"), table.positive("amplitude"), *nu, fluid.solver};
+  if (p.amplitude >= 0.5 * p.fluid.sound_speed())
+    table.fail("amplitude",
+               "must be below half the speed of sound sqrt(7 K/rho0): the vortex is incompressible");
+  return std::make_shared<TaylorGreenFlow>(p);
+}
+
 mpm::Side read_side(TomlTable& table, const std::string& key) {
   if (!table.has(key)) return mpm::Side::joined();
   return mpm::Side::wall(read_vector(table, key));
@@ -97,6 +110,7 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
        [](TomlTable& t, const FluidConfig& f) { return read_channel(t, f, true, true); }},
       {"acoustic-wave", read_acoustic_wave},
       {"shear-wave", read_shear_wave},
+      {"taylor-green", read_taylor_green},
       {"box", read_box},
   };
   return table;
