@@ -51,11 +51,7 @@ ConsistentMass::ConsistentMass(const Grid& grid) : is_wall_(grid.size(), 0) {
     iterative_.emplace(grid);
 }
 
-void ConsistentMass::assemble(const StencilTable& table, const ScalarField& particle_mass) {
-  if (iterative_) {
-    iterative_->matrix.assemble(table, particle_mass);
-    return fix_nodes();
-  }
+void ConsistentMass::assemble_direct(const StencilTable& table, const ScalarField& particle_mass) {
   if (table.value == last_.value && table.node == last_.node && particle_mass == last_mass_)
     return;  // rows that only slid along the flow
   direct_->assemble(table, particle_mass);

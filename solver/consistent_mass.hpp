@@ -18,14 +18,20 @@ namespace mpm {
 /// out and their values are zero, so that empty cells do no harm.
 class ConsistentMass {
  public:
-  static constexpr bool needs_table = true;
-
   ConsistentMass(const Grid& grid, const WallNodes& walls);
   /// Without prescribed values.
   explicit ConsistentMass(const Grid& grid);
 
-  /// Sums the matrix, and factorises it, unless the stencils are the last ones.
-  void assemble(const StencilTable& table, const ScalarField& particle_mass);
+  /// Whether assemble() reads the table.
+  [[nodiscard]] bool needs_table() const { return direct_.has_value(); }
+
+  /// Sums the matrix.
+  template <class Basis>
+  void assemble(const StencilTable& table, const Grid& grid, const Particles& particles) {
+    if (direct_) return assemble_direct(table, particles.mass);
+    iterative_->matrix.assemble<Basis>(grid, particles);
+    fix_nodes();
+  }
 
   /// field <- M^-1 field, in place, with the values that `impose` sets on the wall nodes. Without walls the
   /// total of the field, its momentum or force, is kept to round-off, whatever the iteration leaves.
@@ -72,6 +78,8 @@ class ConsistentMass {
     ScalarField scale;  ///< (T_ii/M_ii)^1/2 [m/kg^1/2]; 0 on nodes that are fixed
   };
 
+  /// Sums and factorises, unless the stencils are the last ones.
+  void assemble_direct(const StencilTable& table, const ScalarField& particle_mass);
   void fix_nodes();
   void solve_from(VectorField& guess, VectorField& field, const ScalarField& nodal_mass);
   void solve_direct(VectorField& fixed, VectorField& guess, VectorField& field) const;

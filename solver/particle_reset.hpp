@@ -5,6 +5,7 @@
 
 #include "solver/consistent_mass.hpp"
 #include "solver/seeding.hpp"
+#include "solver/straight_drift.hpp"
 #include "solver/transfer.hpp"
 
 namespace mpm {
@@ -55,6 +56,7 @@ class ParticleReset {
         particles.affine[p] = Apic::affine_field<Basis>(grid, grid.velocity, position_[p]);
       particles.mass[p] = particles.density[p] * volume_[p];
     }
+    if constexpr (Transfer::is_grid_field) take_gradients<Basis>(grid, particles);
     keep_mass(mass, particles);
     keep_momentum(momentum, grid, particles);
   }
@@ -72,10 +74,10 @@ class ParticleReset {
         density_[i].x() += n * m_p * particles.density[p];
       });
     }
-    table_.assign<Basis>(grid, particles);
-    velocity_mass_.assemble(table_, particles.mass);
+    if (velocity_mass_.needs_table()) table_.assign<Basis>(grid, particles);
+    velocity_mass_.template assemble<Basis>(table_, grid, particles);
     velocity_mass_.solve(grid, grid.velocity, [&](VectorField& v) { walls.impose_velocity(v, t); });
-    density_mass_.assemble(table_, particles.mass);
+    density_mass_.template assemble<Basis>(table_, grid, particles);
     density_mass_.solve(grid, density_, [](VectorField&) {});
   }
 

@@ -9,6 +9,7 @@
 #include "solver/particle_reset.hpp"
 #include "solver/seeding.hpp"
 #include "solver/simulation.hpp"
+#include "solver/straight_drift.hpp"
 #include "solver/stress_update.hpp"
 #include "solver/transfer.hpp"
 
@@ -198,6 +199,7 @@ class Solver final : public Simulation {
     if constexpr (std::is_same_v<Mass, ConsistentMass>) {
       map_velocity(0, grid_, grid_.velocity, mass_, table_);
       grid_to_particles(0);
+      take_gradients<Basis>(grid_, particles_);
     } else {
       if constexpr (std::is_same_v<Transfer, Apic>) particles_.affine = initial_gradients(scene_, particles_);
       const VectorField jump = walls_.initial_jump(grid_);
@@ -228,8 +230,8 @@ class Solver final : public Simulation {
                                              grid.mass, velocity);
     Vec2 total = Vec2::Zero();
     for (const Vec2& momentum : velocity) total += momentum;
-    if (Mass::needs_table || implicit_viscosity_) table.assign<Basis>(grid, particles_);
-    mass.assemble(table, particles_.mass);
+    if (mass.needs_table() || implicit_viscosity_) table.assign<Basis>(grid, particles_);
+    mass.template assemble<Basis>(table, grid, particles_);
     mass.solve(grid, velocity, [&](VectorField& v) { walls_.impose_velocity(v, t); });
     return total;
   }
@@ -315,6 +317,7 @@ class Solver final : public Simulation {
 
   /// Moves the particles and compresses them with the velocity that they have at t, mapped where they are.
   void drift(double t, double dt) {
+    if constexpr (Transfer::is_grid_field) return drift_straight(dt);
     map_velocity(t, grid_, grid_.velocity, mass_, table_);
     drift_on(dt);
   }
@@ -327,18 +330,34 @@ class Solver final : public Simulation {
 
   /// The second half of a drift, with the velocity that the particles have at the end of the step.
   void close_drift(double t, double dt) {
+    if constexpr (Transfer::is_grid_field) {
+      take_gradients<Basis>(grid_, particles_);
+      return drift_straight(dt);
+    }
     if constexpr (Transfer::keeps_velocity) map_velocity(t, grid_, grid_.velocity, mass_, table_);
     drift_on(dt);
   }
 
-  /// Particles follow the interpolated grid velocity (the paper's Eq. 20 uses their own); x in periodic
-  /// directions wraps. The same loop finds a state that cannot be continued from.
+  /// The same for particles whose velocity is the grid's: along straight lines, without another projection.
+  void drift_straight(double dt) {
+    strain_straight(particles_, dt, scene_.fluid.pressure);
+    move_particles(dt, [&](std::size_t p) { return particles_.velocity[p]; });
+  }
+
+  /// Particles follow the interpolated grid velocity (the paper's Eq. 20 uses their own).
   void move_particles(double dt) {
+    move_particles(
+        dt, [&](std::size_t p) { return interpolate<Basis>(grid_, grid_.velocity, particles_.position[p]); });
+  }
+
+  /// x in periodic directions wraps. The same loop finds a state that cannot be continued from.
+  template <class Velocity>
+  void move_particles(double dt, const Velocity& velocity) {
     double energy = 0;
     bool inside = true, dense = true;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       Vec2& x_p = particles_.position[p];
-      x_p += dt * interpolate<Basis>(grid_, grid_.velocity, x_p);
+      x_p += dt * velocity(p);
       inside &= grid_.x.contain(x_p.x()) && grid_.y.contain(x_p.y());
       dense &= particles_.density[p] > 0;
       energy += particles_.velocity[p].squaredNorm();

@@ -10,33 +10,18 @@ StencilMatrix::StencilMatrix(const Grid& grid)
       entry_(grid.size() * entries(), 0.0),
       padded_(static_cast<std::size_t>((x_.count + 2 * degree_) * (y_.count + 2 * degree_)), Vec2::Zero()) {}
 
-void StencilMatrix::assemble(const StencilTable& table, const ScalarField& particle_mass) {
-  std::fill(entry_.begin(), entry_.end(), 0.0);
-  switch (degree_) {
-    case 1:
-      return add_particles<1>(table, particle_mass);
-    case 2:
-      return add_particles<2>(table, particle_mass);
-    default:
-      return add_particles<3>(table, particle_mass);
-  }
-}
-
-template <int degree>
-void StencilMatrix::add_particles(const StencilTable& table, const ScalarField& particle_mass) {
-  constexpr int support = degree + 1, reach = 2 * degree + 1, width = support * support;
-  for (std::size_t p = 0; p < particle_mass.size(); ++p) {
-    const int* node = table.node.data() + p * width;
-    const double* value = table.value.data() + p * width;
-    for (int k = 0; k < width; ++k) {
-      // Of the row's neighbours, those in the particle's stencil begin here.
-      double* row = entry_.data() + static_cast<std::size_t>(node[k]) * (reach * reach) +
-                    (degree - k / support) * reach + degree - k % support;
-      const double share = particle_mass[p] * value[k];
-      for (int l = 0; l < support; ++l)
-        for (int m = 0; m < support; ++m) row[l * reach + m] += share * value[l * support + m];
-    }
-  }
+void StencilMatrix::mirror() {
+  std::size_t node = 0;
+  for (int j = 0; j < y_.count; ++j)
+    for (int i = 0; i < x_.count; ++i, ++node)
+      for (int dj = 1; dj <= degree_; ++dj)
+        for (int di = -degree_; di <= degree_; ++di) {
+          const int k = x_.neighbour(i + di), l = y_.neighbour(j + dj);
+          if (k < 0 || l < 0) continue;
+          const auto here = static_cast<std::size_t>((dj + degree_) * reach_ + di + degree_);
+          entry_[static_cast<std::size_t>(l * x_.count + k) * entries() + entries() - 1 - here] =
+              entry_[node * entries() + here];
+        }
 }
 
 void StencilMatrix::multiply(const VectorField& field, VectorField& product) const {
@@ -68,10 +53,12 @@ void StencilMatrix::multiply_by_degree(VectorField& product) const {
     for (int i = 0; i < x_.count; ++i, ++node) {
       const double* entry = entry_.data() + node * (reach * reach);
       const Vec2* neighbours = padded_.data() + j * nx + i;
-      Vec2 sum = Vec2::Zero();
-      for (int l = 0; l < reach; ++l)
-        for (int k = 0; k < reach; ++k) sum += entry[l * reach + k] * neighbours[l * nx + k];
-      product[node] = sum;
+      Vec2 sum[reach];  // independent sums, which the processor adds side by side
+      for (int l = 0; l < reach; ++l) sum[l] = entry[l * reach] * neighbours[l * nx];
+      for (int k = 1; k < reach; ++k)
+        for (int l = 0; l < reach; ++l) sum[l] += entry[l * reach + k] * neighbours[l * nx + k];
+      for (int l = 1; l < reach; ++l) sum[0] += sum[l];
+      product[node] = sum[0];
     }
 }
 

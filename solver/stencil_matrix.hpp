@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <vector>
 
 #include "solver/grid.hpp"
-#include "solver/stencil_table.hpp"
+#include "solver/particles.hpp"
 
 namespace mpm {
 
@@ -15,8 +15,14 @@ class StencilMatrix {
  public:
   explicit StencilMatrix(const Grid& grid);
 
-  /// sum_p m_p N_ip N_jp for the particles of a table on the same grid.
-  void assemble(const StencilTable& table, const ScalarField& particle_mass);
+  /// sum_p m_p N_ip N_jp.
+  template <class Basis>
+  void assemble(const Grid& grid, const Particles& particles) {
+    std::fill(entry_.begin(), entry_.end(), 0.0);
+    if constexpr (Basis::X::support == Basis::Y::support)  // not a strip, whose matrix is banded
+      add_particles<Basis>(grid, particles);
+    mirror();
+  }
 
   /// product = A field
   void multiply(const VectorField& field, VectorField& product) const;
@@ -49,8 +55,31 @@ class StencilMatrix {
   };
 
   [[nodiscard]] std::size_t entries() const { return static_cast<std::size_t>(reach_ * reach_); }
-  template <int degree>
-  void add_particles(const StencilTable& table, const ScalarField& particle_mass);
+
+  /// Adds to the couplings with dj >= 0.
+  template <class Basis>
+  void add_particles(const Grid& grid, const Particles& particles) {
+    constexpr int degree = Basis::degree, support = degree + 1, reach = 2 * degree + 1;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const Vec2& x_p = particles.position[p];
+      const auto wx = Basis::X::at(grid.x, x_p.x());
+      const auto wy = Basis::Y::at(grid.y, x_p.y());
+      for (int l = 0; l < support; ++l) {
+        const int row = grid.y.function(wy.first + l) * grid.x.count();
+        for (int k = 0; k < support; ++k) {
+          // Of the node's couplings, those with the particle's other nodes begin here.
+          double* entry = entry_.data() +
+                          static_cast<std::size_t>(row + grid.x.function(wx.first + k)) * (reach * reach) +
+                          degree * reach + degree - k;
+          const double share = particles.mass[p] * wy.value[l] * wx.value[k];
+          for (int m = l; m < support; ++m)
+            for (int n = 0; n < support; ++n) entry[(m - l) * reach + n] += share * wy.value[m] * wx.value[n];
+        }
+      }
+    }
+  }
+  /// Copies the couplings with dj > 0 to their mirror images.
+  void mirror();
   template <int degree>
   void multiply_by_degree(VectorField& product) const;
 
