@@ -54,6 +54,7 @@ std::vector<Scheme> schemes_of(const FigureRecord& record, const Results& result
     const auto wall = wall_of.find(r.run->run);
     if (wall == wall_of.end()) continue;
     std::string name = fmt::format("{}, {}, {}", r.run->basis, r.run->transfer, r.run->stepping);
+    if (r.run->reset != "never") name += ", reset " + r.run->reset;
     if (scenes.size() > 1) name += ", " + r.run->scene;
     if (fluids.size() > 1) name += ", " + r.run->fluid;
     if (studies.size() > 1) name += " (" + r.run->study + ")";

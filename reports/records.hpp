@@ -23,6 +23,8 @@ struct RunRecord {
   double dt = 0;       ///< nominal time step [s]
   long steps = 0;      ///< steps taken
   std::string status;  ///< "completed" or "diverged at t = ... s: why"
+  /// When particles are put back on their lattice: "never", "every 25 steps", ...
+  std::string reset = "never";
 };
 
 /// errors.csv: norms of (numerical - exact) velocity, relative to the velocity scale of the flow [-].
@@ -95,6 +97,7 @@ struct HistoryRow {
   double momentum_x = 0, momentum_y = 0;  ///< total momentum per unit depth [kg/s]
   double impulse_x = 0, impulse_y = 0;    ///< time integral of body and wall forces per unit depth [kg/s]
   double kinetic_energy = 0;              ///< of the particles per unit depth [J/m]
+  double kinetic_energy_exact = std::numeric_limits<double>::quiet_NaN();  ///< of the exact field [J/m]
 };
 
 /// profiles/<run>.shear.csv: shear rate and viscosity across a channel. location: "cells" (grid field at cell
@@ -134,14 +137,15 @@ struct MatrixRecord {
 struct FigureRecord {
   std::string figure;  ///< file stem, unique
   std::string study;
-  std::string kind;    ///< "profiles", "history", "convergence", "work-precision", "shear-rate", "viscosity"
-  std::string title;   ///< the claim that the figure shows
-  std::string runs;    ///< runs to draw (profiles, history, work-precision); "" = all of the study
-  std::string labels;  ///< a legend entry for each run; "" = run names
-  std::string across;  ///< coordinate of profiles: "x" or "y"
-  std::string component;                                ///< velocity component of profiles: "u" or "v"
-  std::string location;                                 ///< "grid", "particles", or "grid;particles"
-  std::string norm;                                     ///< convergence, work-precision: "l1", "l2", "linf"
+  std::string kind;       ///< "profiles", "history", "energy", "convergence",
+                          ///< "work-precision", "shear-rate", "viscosity"
+  std::string title;      ///< the claim that the figure shows
+  std::string runs;       ///< runs to draw (profiles, history, work-precision); "" = all of the study
+  std::string labels;     ///< a legend entry for each run; "" = run names
+  std::string across;     ///< coordinate of profiles: "x" or "y"
+  std::string component;  ///< velocity component of profiles: "u" or "v"
+  std::string location;   ///< "grid", "particles", or "grid;particles"
+  std::string norm;       ///< convergence, work-precision: "l1", "l2", "linf"
   double t = std::numeric_limits<double>::quiet_NaN();  ///< shear-rate, viscosity: the time shown [s]
 };
 

@@ -26,6 +26,7 @@ constexpr auto run_columns = std::make_tuple(    //
     column("basis", &RunRecord::basis),          //
     column("transfer", &RunRecord::transfer),    //
     column("stepping", &RunRecord::stepping),    //
+    column("reset", &RunRecord::reset),          //
     column("cells", &RunRecord::cells),          //
     column("particles", &RunRecord::particles),  //
     column("dt", &RunRecord::dt),                //
@@ -150,7 +151,8 @@ constexpr auto history_columns = std::make_tuple(     //
     column("momentum_y", &HistoryRow::momentum_y),    //
     column("impulse_x", &HistoryRow::impulse_x),      //
     column("impulse_y", &HistoryRow::impulse_y),      //
-    column("kinetic_energy", &HistoryRow::kinetic_energy));
+    column("kinetic_energy", &HistoryRow::kinetic_energy),
+    column("kinetic_energy_exact", &HistoryRow::kinetic_energy_exact));
 
 std::filesystem::path profile_path(const std::filesystem::path& dir, const std::string& run,
                                    const char* ending) {

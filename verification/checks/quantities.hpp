@@ -16,11 +16,11 @@ struct Quantity {
 /// Known names:
 ///   settling-time    first time after which the probe stays within 1 % of its steady velocity (t99) [s]
 ///   final-velocity   at the probe at the end of the run [m/s]
-///   velocity         at the probe at a time [m/s]
-///   shear-rate, viscosity-ratio   at a time and place, in the cell there [1/s, 1]
-///   shear-rate-rise  smallest increase from cell to cell, resting plate to moving plate, over the largest
-///   rate [1] shear-rate-spread   the same from the middle to either plate [1] shear-rate-asymmetry   largest
-///   |rate(y) - rate(H - y)| over the largest rate [1]
+///   energy-error     largest |E/E_exact - 1| of the kinetic energy over the history; NaN for a run that
+///   ended early [1] velocity         at the probe at a time [m/s] shear-rate, viscosity-ratio   at a time
+///   and place, in the cell there [1/s, 1] shear-rate-rise  smallest increase from cell to cell, resting
+///   plate to moving plate, over the largest rate [1] shear-rate-spread   the same from the middle to either
+///   plate [1] shear-rate-asymmetry   largest |rate(y) - rate(H - y)| over the largest rate [1]
 const std::vector<std::string>& quantity_names();
 bool needs_time(const std::string& quantity);
 bool needs_place(const std::string& quantity);
