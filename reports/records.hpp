@@ -38,11 +38,11 @@ struct ErrorRecord {
 /// levels.csv: one point of one refinement ladder, the data behind one row of orders.csv.
 struct LevelRecord {
   std::string study, variant;
-  std::string axis;  ///< "space" or "time"
+  std::string axis;  ///< "space", "time" or "mach"
   std::string location, norm;
   double t = 0;     ///< [s]
-  double step = 0;  ///< refined quantity: cell size h [m] for "space", dt [s] for "time"
-  /// "space": relative error norm; "time": relative norm of the difference to the next finer dt
+  double step = 0;  ///< refined quantity: cell size h [m], dt [s], or the Mach number [-]
+  /// "space", "mach": relative error norm; "time": relative norm of the difference to the next finer dt
   double value = 0;
   bool used = true;  ///< false when dropped from the fit (at the round-off floor, or not finite)
 };

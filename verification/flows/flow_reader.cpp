@@ -5,6 +5,7 @@
 
 #include "verification/flows/box_flow.hpp"
 #include "verification/flows/channel_flow.hpp"
+#include "verification/flows/manufactured_flow.hpp"
 #include "verification/flows/taylor_green_flow.hpp"
 #include "verification/flows/wave_flow.hpp"
 
@@ -81,6 +82,21 @@ FlowPointer read_taylor_green(TomlTable& table, const FluidConfig& fluid) {
   return std::make_shared<TaylorGreenFlow>(p);
 }
 
+FlowPointer read_manufactured(TomlTable& table, const FluidConfig& fluid) {
+  reference::ManufacturedParameters p;
+  p.height = table.positive("height");
+  p.length = table.positive("length", p.height);
+  p.plate_velocity = table.positive("plate_velocity");
+  p.amplitude = table.positive("amplitude");
+  p.angular_frequency = table.number("angular_frequency");
+  p.curve = fluid.curve;
+  try {
+    return std::make_shared<ManufacturedFlow>(p, fluid);
+  } catch (const std::invalid_argument& error) {
+    table.fail("amplitude", error.what());
+  }
+}
+
 mpm::Side read_side(TomlTable& table, const std::string& key) {
   if (!table.has(key)) return mpm::Side::joined();
   return mpm::Side::wall(read_vector(table, key));
@@ -111,6 +127,7 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
       {"acoustic-wave", read_acoustic_wave},
       {"shear-wave", read_shear_wave},
       {"taylor-green", read_taylor_green},
+      {"manufactured", read_manufactured},
       {"box", read_box},
   };
   return table;

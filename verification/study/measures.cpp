@@ -61,7 +61,7 @@ void measure_ladder(StudyData& data, const std::string& variant, Location locati
   std::vector<double> steps, values;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     steps.push_back(runs[k]->plan->step);
-    if (ladder.axis == Axis::Space) {
+    if (ladder.axis != Axis::Time) {
       for (const reports::ErrorRecord& error : runs[k]->errors)
         if (error.t == t && error.location == name(location))
           values.push_back(verification::pick(error, norm));
@@ -71,7 +71,7 @@ void measure_ladder(StudyData& data, const std::string& variant, Location locati
   }
   OrderOptions options;
   options.floor = ladder.floor;
-  const OrderEstimate estimate = ladder.axis == Axis::Space
+  const OrderEstimate estimate = ladder.axis != Axis::Time
                                      ? estimate_order(steps, values, options)
                                      : estimate_order_from_differences(steps, values, options);
   for (std::size_t k = 0; k < values.size(); ++k)
