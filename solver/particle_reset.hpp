@@ -26,6 +26,7 @@ class ParticleReset {
         density_mass_(grid) {
     const Particles seeded = seed_particles(scene);
     position_ = seeded.position;
+    mass_ = sum(seeded.mass);
     for (std::size_t p = 0; p < seeded.size(); ++p) volume_.push_back(seeded.mass[p] / seeded.density[p]);
     // One away from walls, falling to zero on them: what may be added to a velocity without moving a wall.
     weight_.assign(grid.size(), Vec2::Ones());
@@ -46,7 +47,6 @@ class ParticleReset {
     steps_ = 0;
     strain_ = 0;
     project(t, walls, grid, particles);
-    const double mass = sum(particles.mass);
     const Vec2 momentum = total_momentum(particles);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       particles.position[p] = position_[p];
@@ -57,7 +57,7 @@ class ParticleReset {
       particles.mass[p] = particles.density[p] * volume_[p];
     }
     if constexpr (Transfer::is_grid_field) take_gradients<Basis>(grid, particles);
-    keep_mass(mass, particles);
+    keep_mass(particles);
     keep_momentum(momentum, grid, particles);
   }
 
@@ -102,8 +102,8 @@ class ParticleReset {
     return total;
   }
 
-  static void keep_mass(double mass, Particles& particles) {
-    const double factor = mass / sum(particles.mass);
+  void keep_mass(Particles& particles) const {
+    const double factor = mass_ / sum(particles.mass);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       particles.mass[p] *= factor;
       particles.density[p] *= factor;
@@ -126,6 +126,7 @@ class ParticleReset {
   double most_strain_;  // 0: not by strain
   long steps_ = 0;      // since the last reset
   double strain_ = 0;   // since the last reset, where the fluid is strained fastest
+  double mass_ = 0;     // of all particles at the start, which nothing changes [kg/m]
   VectorField position_;
   ScalarField volume_;  // [m2]
   VectorField weight_, density_;
