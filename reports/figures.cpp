@@ -113,7 +113,7 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
   Figure figure;
   if (record.kind == "profiles") {
     figure = profiles_figure(dir, record, results);
-  } else if (record.kind == "history") {
+  } else if (record.kind == "history" || record.kind == "energy") {
     figure = history_figure(dir, record, results);
   } else if (record.kind == "shear-rate" || record.kind == "viscosity") {
     figure = shear_figure(dir, record, results);
@@ -126,7 +126,7 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
   } else {
     throw IoError(
         fmt::format("figures.csv: figure '{}' is of unknown kind '{}'; known are profiles, history, "
-                    "convergence, work-precision, shear-rate, viscosity, pressure",
+                    "energy, convergence, work-precision, shear-rate, viscosity, pressure",
                     record.figure, record.kind));
   }
   figure.name = record.figure;

@@ -24,6 +24,7 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
 
 // One function a kind; each fills title, caption and script.
 Figure profiles_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
+/// Kinds "history" (velocity at the probe) and "energy" (kinetic energy of the whole scene).
 Figure history_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
 /// Kinds "shear-rate" and "viscosity": across a channel at one time, one colour a run (the paper's Figs 4, 5,
 /// 9, 10).

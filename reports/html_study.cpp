@@ -31,8 +31,7 @@ std::string figure_element(const std::filesystem::path& dir, const ReportFigure&
 }
 
 std::string rate_table(const RateTable& table) {
-  const bool in_time = table.axis == "time";
-  std::string head = fmt::format("<th class=\"n\">{}</th>", in_time ? "dt [s]" : "h [m]");
+  std::string head = fmt::format("<th class=\"n\">{}</th>", step_symbol(table.axis));
   for (const double t : table.times) {
     head += fmt::format("<th class=\"n\">t = {} s</th><th class=\"n\">rate</th>", number(t));
   }
@@ -142,14 +141,16 @@ std::string html_study(const std::filesystem::path& dir, const ReportData& data,
     if (figure.figure.study == study.study) section += figure_element(dir, figure);
   }
   const auto tables = rate_tables(data.results, study.study);
-  for (const char* axis : {"space", "time"}) {
+  for (const char* axis : {"space", "time", "mach"}) {
     std::string text;
     for (const RateTable& table : tables) {
       if (table.axis == axis) text += rate_table(table);
     }
     if (text.empty()) continue;
     section += axis == std::string("space") ? "<h3>Errors and rates in space</h3>\n"
-                                            : "<h3>Differences to the next finer time step, and rates</h3>\n";
+               : axis == std::string("mach")
+                   ? "<h3>Errors and rates in the Mach number</h3>\n"
+                   : "<h3>Differences to the next finer time step, and rates</h3>\n";
     section += text + "<p class=\"faint\">Levels in italics were left out of the fit.</p>\n";
   }
   const auto orders = orders_of(data.results, study.study);

@@ -23,6 +23,8 @@ struct RunRecord {
   double dt = 0;       ///< nominal time step [s]
   long steps = 0;      ///< steps taken
   std::string status;  ///< "completed" or "diverged at t = ... s: why"
+  /// When particles are put back on their lattice: "never", "every 25 steps", ...
+  std::string reset = "never";
 };
 
 /// errors.csv: norms of (numerical - exact) velocity, relative to the velocity scale of the flow [-].
@@ -36,11 +38,11 @@ struct ErrorRecord {
 /// levels.csv: one point of one refinement ladder, the data behind one row of orders.csv.
 struct LevelRecord {
   std::string study, variant;
-  std::string axis;  ///< "space" or "time"
+  std::string axis;  ///< "space", "time" or "mach"
   std::string location, norm;
   double t = 0;     ///< [s]
-  double step = 0;  ///< refined quantity: cell size h [m] for "space", dt [s] for "time"
-  /// "space": relative error norm; "time": relative norm of the difference to the next finer dt
+  double step = 0;  ///< refined quantity: cell size h [m], dt [s], or the Mach number [-]
+  /// "space", "mach": relative error norm; "time": relative norm of the difference to the next finer dt
   double value = 0;
   bool used = true;  ///< false when dropped from the fit (at the round-off floor, or not finite)
 };
@@ -102,6 +104,7 @@ struct HistoryRow {
   double momentum_x = 0, momentum_y = 0;  ///< total momentum per unit depth [kg/s]
   double impulse_x = 0, impulse_y = 0;    ///< time integral of body and wall forces per unit depth [kg/s]
   double kinetic_energy = 0;              ///< of the particles per unit depth [J/m]
+  double kinetic_energy_exact = std::numeric_limits<double>::quiet_NaN();  ///< of the exact field [J/m]
 };
 
 /// profiles/<run>.shear.csv: shear rate and viscosity across a channel. location: "cells" (grid field at cell
@@ -174,7 +177,7 @@ struct ScoreRecord {
 struct FigureRecord {
   std::string figure;  ///< file stem, unique
   std::string study;
-  /// "profiles", "history", "convergence", "work-precision", "shear-rate", "viscosity", "pressure"
+  /// "profiles", "history", "energy", "convergence", "work-precision", "shear-rate", "viscosity", "pressure"
   std::string kind;
   std::string title;      ///< the claim that the figure shows
   std::string runs;       ///< runs to draw (profiles, history, work-precision); "" = all of the study

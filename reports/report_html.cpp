@@ -83,14 +83,15 @@ std::string run_section(const Results& results) {
       if (std::isfinite(timing.wall_s)) wall = number(timing.wall_s, 3);
       if (std::isfinite(timing.particle_steps_per_s)) speed = number(timing.particle_steps_per_s / 1e6, 3);
     }
+    const std::string scheme = run.stepping + (run.reset == "never" ? "" : ", reset " + run.reset);
     rows += fmt::format(
         "<tr><td class=\"w\">{}</td><td>{}, {}</td><td>{}, {}, {}</td><td class=\"n\">{}</td><td "
         "class=\"n\">{}</td>"
         "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
         "class=\"{}\">{}</td></tr>\n",
         html_text(run.run), html_text(run.scene), html_text(run.fluid), html_text(run.basis),
-        html_text(run.transfer), html_text(run.stepping), run.cells, run.particles, number(run.dt), run.steps,
-        wall, speed,
+        html_text(run.transfer), html_text(scheme), run.cells, run.particles, number(run.dt), run.steps, wall,
+        speed,
         completed(run)                      ? "pass"
         : expected_to_diverge(results, run) ? "faint"
                                             : "fail",

@@ -77,9 +77,9 @@ std::string claim_section(const std::vector<ClaimRecord>& claims) {
 }
 
 std::string rate_table(const RateTable& table) {
-  std::string text = fmt::format("\n{}: {}, {}, norm {}\n\n| {} |", markdown_text(table.variant), table.axis,
-                                 markdown_text(table.location), norm_symbol(table.norm),
-                                 table.axis == "time" ? "dt [s]" : "h [m]");
+  std::string text =
+      fmt::format("\n{}: {}, {}, norm {}\n\n| {} |", markdown_text(table.variant), table.axis,
+                  markdown_text(table.location), norm_symbol(table.norm), step_symbol(table.axis));
   std::string rule = "\n|---|";
   for (const double t : table.times) {
     text += fmt::format(" {}, t = {} s | rate |", table.axis == "time" ? "difference" : "error", number(t));

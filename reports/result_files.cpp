@@ -26,6 +26,7 @@ constexpr auto run_columns = std::make_tuple(    //
     column("basis", &RunRecord::basis),          //
     column("transfer", &RunRecord::transfer),    //
     column("stepping", &RunRecord::stepping),    //
+    column("reset", &RunRecord::reset),          //
     column("cells", &RunRecord::cells),          //
     column("particles", &RunRecord::particles),  //
     column("dt", &RunRecord::dt),                //
@@ -184,7 +185,8 @@ constexpr auto history_columns = std::make_tuple(     //
     column("momentum_y", &HistoryRow::momentum_y),    //
     column("impulse_x", &HistoryRow::impulse_x),      //
     column("impulse_y", &HistoryRow::impulse_y),      //
-    column("kinetic_energy", &HistoryRow::kinetic_energy));
+    column("kinetic_energy", &HistoryRow::kinetic_energy),
+    column("kinetic_energy_exact", &HistoryRow::kinetic_energy_exact));
 
 std::filesystem::path profile_path(const std::filesystem::path& dir, const std::string& run,
                                    const char* ending) {
@@ -253,9 +255,9 @@ void write_results(const std::filesystem::path& dir, const Results& results, Dur
 void remove_tables(const std::filesystem::path& dir) {
   std::error_code ignored;
   // checks.csv goes first: without it nobody takes what is left for a result.
-  for (const char* name :
-       {"checks.csv", "report.html", "report.md", "junit.xml", "studies.csv", "runs.csv", "errors.csv",
-        "levels.csv", "orders.csv", "timing.csv", "figures.csv", "claims.csv", "matrix.csv", "scoreboard.csv"})
+  for (const char* name : {"checks.csv", "report.html", "report.md", "junit.xml", "studies.csv", "runs.csv",
+                           "errors.csv", "levels.csv", "orders.csv", "timing.csv", "figures.csv",
+                           "claims.csv", "matrix.csv", "scoreboard.csv"})
     std::filesystem::remove(dir / name, ignored);
   for (const char* part : {".", "profiles", "scenes", "figures"})
     for (const auto& entry : std::filesystem::directory_iterator(dir / part, ignored))

@@ -67,7 +67,8 @@ std::vector<CostPoint> best_front(std::vector<CostPoint> points, bool by_wall) {
 }
 
 std::string scheme_of(const RunRecord& run) {
-  return fmt::format("{}, {}, {}", run.basis, run.transfer, run.stepping);
+  return fmt::format("{}, {}, {}{}", run.basis, run.transfer, run.stepping,
+                     run.reset == "never" ? "" : ", reset " + run.reset);
 }
 
 std::vector<Cheapest> cheapest_runs(const Results& results) {

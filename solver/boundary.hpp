@@ -7,6 +7,9 @@
 
 namespace mpm {
 
+/// What a mass matrix is solved for: an iteration starts from the last solution of the same kind.
+enum class Nodal { Velocity, Acceleration };
+
 /// The nodes whose functions do not vanish on a wall: the first and the last along a direction with walls,
 /// for every basis here. Their values are the field's values on the wall, so the wall prescribes them. In
 /// a corner each wall prescribes the velocity normal to it, so that nothing is pushed through either (a lid

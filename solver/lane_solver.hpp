@@ -13,14 +13,14 @@
 namespace mpm {
 
 /// Whether a LaneSolver covers a scheme on a scene: lumped mass with particles that carry a velocity only,
-/// explicit steps of first order, no acceleration that varies in space.
+/// explicit steps of first order, no acceleration that varies in space, no reset of particles.
 inline bool lanes_cover(const Scene& scene, const Scheme& scheme) {
   using T = Scheme::Transfer;
   using S = Scheme::Stepping;
   const bool transfer =
       scheme.transfer == T::Flip || scheme.transfer == T::Pic || scheme.transfer == T::FlipBlend;
   const bool stepping = scheme.stepping == S::Usf || scheme.stepping == S::Usl || scheme.stepping == S::Musl;
-  return transfer && stepping && !scene.acceleration_field;
+  return transfer && stepping && !scene.acceleration_field && !scheme.resets();
 }
 
 /// The material point method on the vector kernels: the same schemes as Solver, an order of magnitude faster.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <type_traits>
 
 namespace mpm {
@@ -21,6 +22,10 @@ struct TaitPressure {
     const Real r = density * inverse_reference_density;
     const Real r3 = r * r * r;
     return bulk_modulus * (r3 * r3 * r - 1);
+  }
+  /// The density at which the pressure is P [kg/m3]; P > -K.
+  [[nodiscard]] double density(double pressure) const {
+    return std::pow(1 + pressure / bulk_modulus, 1.0 / 7) / inverse_reference_density;
   }
 };
 

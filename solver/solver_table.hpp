@@ -16,7 +16,7 @@ std::unique_ptr<Simulation> make_solver_on(const Scene& scene, const Scheme& sch
     return std::make_unique<LaneSolver<Basis>>(scene, scheme.stepping, flip, threads);
   }
   const auto make = [&]<class Transfer>(const Transfer& transfer) -> std::unique_ptr<Simulation> {
-    return std::make_unique<Solver<Basis, Transfer>>(scene, scheme.stepping, transfer);
+    return std::make_unique<Solver<Basis, Transfer>>(scene, scheme, transfer);
   };
   switch (scheme.transfer) {
     case Scheme::Transfer::Flip:

@@ -39,6 +39,17 @@ double settling_time(const RunData& run) {
   return history[k - 1].t + (history[k].t - history[k - 1].t) * before / (before - after);
 }
 
+double energy_error(const RunData& run) {
+  if (!run.completed()) return nan;
+  double largest = 0;
+  for (const reports::HistoryRow& row : run.history) {
+    const double error = std::abs(row.kinetic_energy / row.kinetic_energy_exact - 1);
+    if (std::isnan(error)) return nan;
+    largest = std::max(largest, error);
+  }
+  return largest;
+}
+
 /// Shear rates (or viscosity ratios) of the cells at a time, from the resting plate up.
 std::vector<double> cells_at(const RunData& run, double t, double reports::ShearRow::*value) {
   std::vector<double> values;
@@ -219,6 +230,7 @@ const std::vector<Entry> entries = {
      [](const Quantity&, const RunData& r) {
        return r.completed() && !r.probe.empty() ? r.probe.back() : nan;
      }},
+    {"energy-error", "1", false, false, [](const Quantity&, const RunData& r) { return energy_error(r); }},
     {"velocity", "m/s", true, false,
      [](const Quantity& q, const RunData& r) { return interpolated(r.history, q.time); }},
     {"shear-rate", "1/s", true, true,

@@ -54,6 +54,10 @@ mpm::Scheme read_scheme(TomlTable table) {
     if (!(scheme.flip_fraction >= 0 && scheme.flip_fraction <= 1))
       table.fail("flip_fraction", "must lie in [0, 1]");
   }
+  scheme.reset_every = table.integer("reset_every", 0);
+  if (scheme.reset_every < 0)
+    table.fail("reset_every", "must not be negative: steps between resets, 0 for none");
+  if (table.has("reset_strain")) scheme.reset_strain = table.positive("reset_strain");
   table.refuse_unknown_keys();
   return scheme;
 }
@@ -136,6 +140,8 @@ SceneConfig read_scene_config(TomlTable root) {
   config.scheme = read_scheme(root.table("scheme"));
   TomlTable time = root.table("time");
   config.start = time.has("start") ? time.positive("start") : 0;
+  if (config.start > 0 && config.flow->scene(config.discretisation).initial_density)
+    time.fail("start", "is for flows of uniform density: this one starts from its density at t = 0 only");
   if (config.start > 0 && !config.flow->has_exact())
     time.fail("start", "needs a flow with an exact solution");
   config.outputs = read_outputs(time);

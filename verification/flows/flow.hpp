@@ -44,6 +44,8 @@ class ExactField {
     static_cast<void>(start), static_cast<void>(t);
     return std::nullopt;
   }
+  /// Kinetic energy of the whole scene per unit depth [J/m]; none where it is not known.
+  [[nodiscard]] virtual std::optional<double> kinetic_energy(double) const { return std::nullopt; }
   /// One line: what it is, and the error that it states for itself.
   [[nodiscard]] virtual std::string description() const = 0;
 };
@@ -88,7 +90,7 @@ class Flow {
     return nullptr;
   }
 
-  /// Velocity that errors are divided by [m/s].
+  /// Velocity that errors are divided by, unless it changes with time [m/s].
   [[nodiscard]] virtual double velocity_scale() const = 0;
   /// Pressure that pressure errors are divided by [Pa]; NaN where there is none.
   [[nodiscard]] virtual double pressure_scale() const;
@@ -96,6 +98,11 @@ class Flow {
   [[nodiscard]] virtual std::optional<Oscillation> oscillation() const { return std::nullopt; }
   /// Time before which a run must end [s], because the solution ends there.
   [[nodiscard]] virtual double latest() const { return std::numeric_limits<double>::infinity(); }
+  /// The same at time t [s], for flows that decay or grow [m/s].
+  [[nodiscard]] virtual double velocity_scale_at(double t) const {
+    static_cast<void>(t);
+    return velocity_scale();
+  }
   /// Whether shear rate and viscosity across the flow are of interest (channels).
   [[nodiscard]] virtual bool has_shear_profile() const { return false; }
   /// Velocity at the probe in the steady state [m/s]; NaN where there is none.

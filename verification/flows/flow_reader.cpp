@@ -6,9 +6,11 @@
 #include "verification/flows/box_flow.hpp"
 #include "verification/flows/channel_flow.hpp"
 #include "verification/flows/dilatation_flow.hpp"
+#include "verification/flows/manufactured_flow.hpp"
 #include "verification/flows/oscillating_channel_flow.hpp"
 #include "verification/flows/periodic_flow.hpp"
 #include "verification/flows/tait_column_flow.hpp"
+#include "verification/flows/taylor_green_flow.hpp"
 #include "verification/flows/wave_flow.hpp"
 
 namespace verification {
@@ -134,6 +136,33 @@ FlowPointer read_dilatation(TomlTable& table, const FluidConfig& fluid) {
   return std::make_shared<DilatationFlow>(p);
 }
 
+FlowPointer read_taylor_green(TomlTable& table, const FluidConfig& fluid) {
+  const auto nu = fluid.curve.newtonian();
+  if (!nu) table.fail("flow", "has an exact solution for a Newtonian fluid only");
+  if (!fluid.solver.pressure)
+    table.fail("flow", "a vortex needs fluid.pressure = true: pressure balances its advection");
+  TaylorGreenFlowParameters p{table.positive("period"), table.positive("amplitude"), *nu, fluid.solver};
+  if (p.amplitude >= 0.5 * p.fluid.sound_speed())
+    table.fail("amplitude",
+               "must be below half the speed of sound sqrt(7 K/rho0): the vortex is incompressible");
+  return std::make_shared<TaylorGreenFlow>(p);
+}
+
+FlowPointer read_manufactured(TomlTable& table, const FluidConfig& fluid) {
+  reference::ManufacturedParameters p;
+  p.height = table.positive("height");
+  p.length = table.positive("length", p.height);
+  p.plate_velocity = table.positive("plate_velocity");
+  p.amplitude = table.positive("amplitude");
+  p.angular_frequency = table.number("angular_frequency");
+  p.curve = fluid.curve;
+  try {
+    return std::make_shared<ManufacturedFlow>(p, fluid);
+  } catch (const std::invalid_argument& error) {
+    table.fail("amplitude", error.what());
+  }
+}
+
 mpm::Side read_side(TomlTable& table, const std::string& key) {
   if (!table.has(key)) return mpm::Side::joined();
   return mpm::Side::wall(read_vector(table, key));
@@ -169,6 +198,8 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
       {"uniform-dilatation", read_dilatation},
       {"oscillating-plate", [](TomlTable& t, const FluidConfig& f) { return read_oscillating(t, f, true); }},
       {"womersley", [](TomlTable& t, const FluidConfig& f) { return read_oscillating(t, f, false); }},
+      {"taylor-green", read_taylor_green},
+      {"manufactured", read_manufactured},
       {"box", read_box},
   };
   return table;

@@ -18,8 +18,8 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
   reports::FigureRecord figure;
   figure.study = study.name;
   figure.kind = table.text("kind");
-  static const std::vector<std::string> kinds = {"profiles",   "history",   "convergence", "work-precision",
-                                                 "shear-rate", "viscosity", "pressure"};
+  static const std::vector<std::string> kinds = {"profiles",       "history",    "energy",    "convergence",
+                                                 "work-precision", "shear-rate", "viscosity", "pressure"};
   if (std::ranges::count(kinds, figure.kind) == 0) table.fail("kind", "must be one of: " + joined(kinds));
   figure.title = table.text("title");
   figure.norm = table.text("norm", "l2");
@@ -48,7 +48,7 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
       table.fail("kind", "is for flows with an exact pressure");
     if (shear && !last->scene.flow->has_shear_profile()) table.fail("kind", "is for channels");
   }
-  if (shear || pressure || figure.kind == "profiles" || figure.kind == "history") {
+  if (shear || pressure || figure.kind == "profiles" || figure.kind == "history" || figure.kind == "energy") {
     if (figure.kind == "profiles" && runs.size() > 1)
       table.fail("variants", "a profile figure shows one variant");
     figure.runs = joined(runs);

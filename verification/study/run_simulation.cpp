@@ -106,7 +106,7 @@ class Recorder {
     const double exact = exact_ ? exact_->velocity(probe.point, t, Location::Grid).dot(probe.direction) : nan;
     data_.history.push_back({t, probe_velocity(t), exact, totals.mass, totals.momentum.x(),
                              totals.momentum.y(), totals.impulse.x(), totals.impulse.y(),
-                             totals.kinetic_energy});
+                             totals.kinetic_energy, exact_ ? exact_->kinetic_energy(t).value_or(nan) : nan});
     ++samples_;
   }
 

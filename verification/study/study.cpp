@@ -27,6 +27,8 @@ std::string name(Axis axis) {
       return "space";
     case Axis::Time:
       return "time";
+    case Axis::Mach:
+      return "mach";
     default:
       return "none";
   }

@@ -26,13 +26,13 @@ struct PlannedRun {
   std::string run;      ///< unique name, safe as a file name
   std::string variant;  ///< "" where the study has none
   int level = 0;        ///< on the ladder, 0 the coarsest
-  double step = 0;      ///< refined quantity: h [m] or dt [s]
+  double step = 0;      ///< refined quantity: h [m], dt [s] or Mach number
   /// Order that theory gives its ladder, on the grid and on the particles.
   double theoretical = std::numeric_limits<double>::quiet_NaN(), theoretical_particles = theoretical;
   SceneConfig scene;
 };
 
-enum class Axis { None, Space, Time };
+enum class Axis { None, Space, Time, Mach };
 std::string name(Axis axis);
 
 /// How the levels of a study differ.
@@ -42,6 +42,7 @@ struct Ladder {
   bool formal_exponent = false;  ///< Space: dt_exponent follows from each scheme's formal orders
   double dt_exponent = 2;        ///< Space: dt = time.dt (cells[0]/cells)^dt_exponent
   std::vector<double> dt;        ///< Time: coarse to fine [s]
+  std::vector<double> mach;      ///< Mach: scene.amplitude over the speed of sound, falling
   double theoretical = std::numeric_limits<double>::quiet_NaN();            ///< order that theory gives
   double theoretical_particles = std::numeric_limits<double>::quiet_NaN();  ///< the same for the particles
 

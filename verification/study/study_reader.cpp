@@ -1,5 +1,7 @@
 #include "verification/study/study_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,8 +41,14 @@ Ladder read_ladder(TomlTable table, bool present, bool matrix) {
     ladder.dt = table.numbers("dt");
     require_ladder(table, "dt", ladder.dt, false);
     if (ladder.dt.size() < 3) table.fail("dt", "needs at least three levels: orders come from differences");
+  } else if (axis == "mach") {
+    ladder.axis = Axis::Mach;
+    if (matrix)
+      table.fail("axis", "\"mach\" is not for a [matrix], which judges schemes by their own orders");
+    ladder.mach = table.numbers("mach");
+    require_ladder(table, "mach", ladder.mach, false);
   } else {
-    table.fail("axis", "must be \"space\" or \"time\"");
+    table.fail("axis", "must be \"space\", \"time\" or \"mach\"");
   }
   // A matrix of schemes knows each scheme's own order.
   if (!matrix || table.has("theoretical"))
@@ -66,6 +74,12 @@ TomlTable at_level(const TomlTable& scene, const Ladder& ladder, int level, std:
   } else if (ladder.axis == Axis::Time) {
     result.set("time.dt", ladder.dt[i]);
     tag = "level" + std::to_string(level);
+  } else if (ladder.axis == Axis::Mach) {
+    // c = sqrt(7 K/rho0) = U/Ma
+    const double sound_speed = result.table("scene").positive("amplitude") / ladder.mach[i];
+    const double density = result.table("fluid").positive("density", mpm::Fluid{}.density);
+    result.set("fluid.bulk_modulus", density * sound_speed * sound_speed / 7);
+    tag = fmt::format("ma{:g}", ladder.mach[i]);
   }
   return result;
 }
@@ -86,6 +100,7 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
   const Ladder ladder = ladder_for(study, scene);
   const std::size_t levels = ladder.axis == Axis::Space  ? ladder.cells.size()
                              : ladder.axis == Axis::Time ? ladder.dt.size()
+                             : ladder.axis == Axis::Mach ? ladder.mach.size()
                                                          : 1;
   for (std::size_t level = 0; level < levels; ++level) {
     PlannedRun planned;
@@ -95,7 +110,9 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
     planned.theoretical = ladder.theoretical;
     planned.theoretical_particles = ladder.theoretical_particles;
     planned.level = static_cast<int>(level);
-    planned.step = ladder.axis == Axis::Time ? ladder.dt[level] : planned.scene.cell_size();
+    planned.step = ladder.axis == Axis::Time   ? ladder.dt[level]
+                   : ladder.axis == Axis::Mach ? ladder.mach[level]
+                                               : planned.scene.cell_size();
     planned.run = study.name + (variant.empty() ? "" : "." + variant) + (tag.empty() ? "" : "." + tag);
     study.runs.push_back(std::move(planned));
   }
