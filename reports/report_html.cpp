@@ -6,6 +6,7 @@
 
 #include "reports/html_matrix.hpp"
 #include "reports/html_page.hpp"
+#include "reports/html_stability.hpp"
 #include "reports/html_study.hpp"
 
 namespace reports {
@@ -33,6 +34,7 @@ std::string warning_list(const ReportData& data) {
 std::string contents(const ReportData& data) {
   std::string text = "<nav aria-label=\"Contents\">\n<b>Contents</b>\n<ul>\n";
   if (!data.results.matrix.empty()) text += "<li><a href=\"#matrix\">Order matrix</a></li>\n";
+  if (!data.results.stability.empty()) text += "<li><a href=\"#stability\">Stability limits</a></li>\n";
   if (!data.results.claims.empty()) text += "<li><a href=\"#claims\">Claims judged</a></li>\n";
   for (const StudyRecord& study : studies_of(data.results)) {
     std::size_t held = 0;
@@ -134,6 +136,7 @@ std::string html_report(const std::filesystem::path& dir, const ReportData& data
   body += contents(data);
   body += claim_section(data.results.claims);
   body += html_matrix(data.results.matrix);
+  body += html_stability(data.results.stability);
   for (const StudyRecord& study : studies_of(data.results)) body += html_study(dir, data, study);
   body += run_section(data.results);
   body += provenance_section(data.provenance);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "reports/html_matrix.hpp"
+#include "reports/html_stability.hpp"
 
 namespace reports {
 namespace {
@@ -178,6 +179,7 @@ std::string markdown_report(const ReportData& data) {
   for (const std::string& warning : data.warnings) text += "- " + markdown_text(warning) + "\n";
   text += claim_section(data.results.claims);
   text += markdown_matrix(data.results.matrix);
+  text += markdown_stability(data.results.stability);
   text += check_section(data.results);
   text += order_section(data.results);
   text += diverged_section(data.results);

@@ -124,6 +124,28 @@ constexpr auto matrix_columns = std::make_tuple(              //
     column("verdict", &MatrixRecord::verdict),                //
     column("reason", &MatrixRecord::reason));
 
+constexpr auto stability_columns = std::make_tuple(            //
+    column("study", &StabilityRecord::study),                  //
+    column("basis", &StabilityRecord::basis),                  //
+    column("transfer", &StabilityRecord::transfer),            //
+    column("stepping", &StabilityRecord::stepping),            //
+    column("waves", &StabilityRecord::waves),                  //
+    column("motion", &StabilityRecord::motion),                //
+    column("lattice", &StabilityRecord::lattice),              //
+    column("kind", &StabilityRecord::kind),                    //
+    column("r_predicted", &StabilityRecord::r_predicted),      //
+    column("cfl_predicted", &StabilityRecord::cfl_predicted),  //
+    column("r_measured", &StabilityRecord::r_measured),        //
+    column("cfl_measured", &StabilityRecord::cfl_measured),    //
+    column("r_tested", &StabilityRecord::r_tested),            //
+    column("cfl_tested", &StabilityRecord::cfl_tested),        //
+    column("theta_x", &StabilityRecord::theta_x),              //
+    column("theta_y", &StabilityRecord::theta_y),              //
+    column("offset_x", &StabilityRecord::offset_x),            //
+    column("offset_y", &StabilityRecord::offset_y),            //
+    column("steps", &StabilityRecord::steps),                  //
+    column("crossing", &StabilityRecord::crossing));
+
 constexpr auto shear_columns = std::make_tuple(   //
     column("t", &ShearRow::t),                    //
     column("location", &ShearRow::location),      //
@@ -195,6 +217,7 @@ Results read_results(const std::filesystem::path& dir) {
   results.figures = read_csv(dir / "figures.csv", figure_columns);
   results.claims = read_csv(dir / "claims.csv", claim_columns);
   results.matrix = read_csv(dir / "matrix.csv", matrix_columns);
+  results.stability = read_csv(dir / "stability.csv", stability_columns);
   require_plain_names(results);
   return results;
 }
@@ -212,6 +235,7 @@ void write_results(const std::filesystem::path& dir, const Results& results) {
   write_csv(dir / "figures.csv", figure_columns, results.figures);
   write_csv(dir / "claims.csv", claim_columns, results.claims);
   write_csv(dir / "matrix.csv", matrix_columns, results.matrix);
+  write_csv(dir / "stability.csv", stability_columns, results.stability);
 }
 
 std::vector<ProfileRow> read_profile(const std::filesystem::path& dir, const std::string& run) {

@@ -7,6 +7,7 @@
 #include "verification/checks/check_keys.hpp"
 #include "verification/checks/check_reader.hpp"
 #include "verification/checks/comparison.hpp"
+#include "verification/checks/stability_checks.hpp"
 #include "verification/study/measures.hpp"
 #include "verification/study/scheme_matrix.hpp"
 
@@ -207,6 +208,7 @@ const std::vector<CheckKind>& check_kinds() {
         {"divergence", read_divergence, evaluate_divergence},
     };
     add_quantity_kinds(list);
+    add_stability_kinds(list);
     return list;
   }();
   return kinds;

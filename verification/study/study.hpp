@@ -6,6 +6,7 @@
 
 #include "reports/records.hpp"
 #include "verification/config/scene_config.hpp"
+#include "verification/stability/stability_plan.hpp"
 
 namespace verification {
 
@@ -79,6 +80,7 @@ struct Study {
   bool matrix = false;  ///< its variants are a [matrix] of schemes
   std::vector<std::string> variants;
   std::vector<PlannedRun> runs;  ///< variant by variant, coarse to fine
+  StabilityPlan stability;       ///< in place of runs: limits to measure
   std::vector<CheckSpec> checks;
   std::vector<ClaimSpec> claims;
   std::vector<reports::FigureRecord> figures;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <thread>
@@ -22,6 +24,7 @@ namespace {
 struct Job {
   std::size_t study, run;
   double cost;
+  bool measures_limit = false;  ///< `run` is then a case of the study's [stability]
 };
 
 std::vector<Job> longest_first(const std::vector<Study>& studies) {
@@ -29,6 +32,9 @@ std::vector<Job> longest_first(const std::vector<Study>& studies) {
   for (std::size_t s = 0; s < studies.size(); ++s)
     for (std::size_t r = 0; r < studies[s].runs.size(); ++r)
       jobs.push_back({s, r, studies[s].runs[r].scene.particle_steps()});
+  for (std::size_t s = 0; s < studies.size(); ++s)
+    for (std::size_t c = 0; c < studies[s].stability.cases.size(); ++c)
+      jobs.push_back({s, c, studies[s].stability.cost(studies[s].stability.cases[c]), true});
   std::ranges::stable_sort(jobs, std::ranges::greater{}, &Job::cost);
   return jobs;
 }
@@ -44,6 +50,7 @@ RunData failed_run(const Study& study, const PlannedRun& plan, const std::string
 
 /// What the scenes of a study were declared not to need (DESIGN: model only what a scene needs).
 std::string left_out(const Study& study) {
+  if (study.runs.empty()) return "walls (a uniform periodic lattice)";
   const auto all = [&](auto&& holds) { return std::ranges::all_of(study.runs, holds); };
   const auto any = [&](auto&& holds) { return std::ranges::any_of(study.runs, holds); };
   const auto words = [&](auto&& holds, const std::string& what) {
@@ -74,7 +81,8 @@ class SuiteRunner {
       data.study = &study;
       data.runs.resize(study.runs.size());
       data_.push_back(std::move(data));
-      remaining_.push_back(study.runs.size());
+      limits_.emplace_back(study.stability.cases.size());
+      remaining_.push_back(study.runs.size() + study.stability.cases.size());
     }
   }
 
@@ -105,7 +113,7 @@ class SuiteRunner {
       const std::size_t next = next_++;
       if (next >= jobs_.size()) return;
       try {
-        perform(jobs_[next]);
+        jobs_[next].measures_limit ? measure(jobs_[next]) : perform(jobs_[next]);
       } catch (...) {
         const std::scoped_lock lock(mutex_);
         if (!stop_cause_) stop_cause_ = std::current_exception();
@@ -127,6 +135,34 @@ class SuiteRunner {
     data_[job.study].runs[job.run] = std::move(data);
     if (listener_.run_ended) listener_.run_ended(++done_, static_cast<long>(jobs_.size()), plan.run);
     if (--remaining_[job.study] == 0) conclude(data_[job.study]);
+  }
+
+  /// A case of a [stability].
+  void measure(const Job& job) {
+    const Study& study = studies_[job.study];
+    const StabilityCase& one = study.stability.cases[job.run];
+    const std::string run = study.name + "." + one.name();
+    const auto begin = std::chrono::steady_clock::now();
+    std::vector<reports::StabilityRecord> records;
+    std::string failure;
+    try {
+      records = measure_case(study.name, study.stability, one);
+    } catch (const std::exception& error) {
+      failure = run + ": " + error.what();
+    }
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+
+    const std::scoped_lock lock(mutex_);
+    if (!failure.empty()) failures_.push_back(failure);
+    StudyData& data = data_[job.study];
+    limits_[job.study][job.run] = std::move(records);
+    data.stability_timings.push_back({run, wall.count(), std::numeric_limits<double>::quiet_NaN()});
+    if (listener_.run_ended) listener_.run_ended(++done_, static_cast<long>(jobs_.size()), run);
+    if (--remaining_[job.study] > 0) return;
+    for (const auto& of_case : limits_[job.study])
+      data.stability.insert(data.stability.end(), of_case.begin(), of_case.end());
+    std::ranges::sort(data.stability_timings, {}, &reports::TimingRecord::run);
+    conclude(data);
   }
 
   RunData simulate(const Study& study, const PlannedRun& plan) {
@@ -173,6 +209,8 @@ class SuiteRunner {
       append(results.checks, data_[s].checks);
       append(results.claims, data_[s].claims);
       append(results.matrix, data_[s].matrix);
+      append(results.stability, data_[s].stability);
+      append(results.timings, data_[s].stability_timings);
       append(results.figures, study.figures);
     }
     std::ranges::stable_sort(results.claims, {}, place_in_paper);
@@ -184,6 +222,7 @@ class SuiteRunner {
   const SuiteListener& listener_;
   std::vector<Job> jobs_;
   std::vector<StudyData> data_;
+  std::vector<std::vector<std::vector<reports::StabilityRecord>>> limits_;  // by study and case
   std::vector<std::size_t> remaining_;
   std::vector<std::string> failures_;
   std::atomic<std::size_t> next_{0};
