@@ -73,6 +73,43 @@ void evaluate_limit(const CheckSpec& spec, const StudyData& data, Records& recor
     }
 }
 
+// ---- automatic-step
+
+void read_automatic(TomlTable& table, const Study& study, CheckSpec& spec) {
+  if (study.stability.cases.empty()) table.fail("kind", "\"automatic-step\" needs a [stability]");
+  if (study.stability.lattice.per_cell[0] < 2)
+    for (const StabilityCase& one : study.stability.cases)
+      if (one.scheme.transfer == mpm::Scheme::Transfer::FullMass)
+        table.fail("kind", "\"automatic-step\": full mass needs two particles a cell");
+  if (!table.has("lower")) table.fail_missing("lower", "give the smallest margin");
+  if (!(spec.lower >= 1)) table.fail("lower", "must be at least 1");
+}
+
+void evaluate_automatic(const CheckSpec& spec, const StudyData& data, Records& records) {
+  const StabilityPlan& plan = data.study->stability;
+  mpm::Scene scene;
+  scene.cells = {8, 8};
+  scene.particles_per_cell = plan.lattice.per_cell;
+  for (const StabilityCase& one : plan.cases) {
+    if (std::ranges::count(spec.variants, one.variant) == 0) continue;
+    const mpm::TimeStepRule rule = mpm::automatic_time_step(one.scheme, scene);
+    for (const StabilityRecord& record : data.stability) {
+      if (record.kind != "measured" || !of_variant(record, one.variant) ||
+          record.waves != name(one.waves) || record.motion != name(one.passage))
+        continue;
+      // The tested step stands for the ray; the rule takes the sharper of its two limits on it.
+      const double share = std::max(record.r_tested / rule.cfl_viscous, record.cfl_tested / rule.cfl_acoustic);
+      const bool limited = std::isfinite(record.r_measured);
+      const double reached = limited ? along_ray(record.r_measured, record.cfl_measured) /
+                                           along_ray(record.r_tested, record.cfl_tested)
+                                     : 1;
+      records.push_back(judge(spec, data,
+                              label(one.variant) + described(record) + ": measured limit over automatic step",
+                              reached * share, "1"));
+    }
+  }
+}
+
 // ---- published-limit
 
 void read_published(TomlTable& table, const Study& study, CheckSpec& spec) {
@@ -114,11 +151,12 @@ void evaluate_published(const CheckSpec& spec, const StudyData& data, Records& r
 
 void add_stability_kinds(std::vector<CheckKind>& kinds) {
   kinds.push_back({"stability-limit", read_limit, evaluate_limit});
+  kinds.push_back({"automatic-step", read_automatic, evaluate_automatic});
   kinds.push_back({"published-limit", read_published, evaluate_published});
 }
 
 bool is_stability_kind(const std::string& kind) {
-  return kind == "stability-limit" || kind == "published-limit";
+  return kind == "stability-limit" || kind == "automatic-step" || kind == "published-limit";
 }
 
 }  // namespace verification

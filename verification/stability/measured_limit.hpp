@@ -20,11 +20,15 @@ struct MeasuringPlan {
 /// Neutral waves keep their energy; beating and non-normal growth this close to a limit stays below that.
 bool perturbation_grows(const MeasuringPlan& plan, double multiple);
 
+/// Factor a step by which the perturbation's amplitude grows once its fastest waves have outgrown the others:
+/// the spectral radius, seen on the solver. NaN when it does not grow to that within the plan's steps.
+double measured_growth(const MeasuringPlan& plan, double multiple);
+
 /// Largest stable multiple of the ray, by bisection to 0.2 %, and nothing when `largest` is stable.
 std::optional<double> measure_limit(const MeasuringPlan& plan, double largest);
 
-/// Steps that make an overshoot of 1.5 % unmistakable: the least stable wave grows by exp(10) meanwhile, as
-/// far as that takes at most 6000 steps.
+/// Steps that make an overshoot of 1 % unmistakable: the least stable wave grows by exp(12) meanwhile, as far
+/// as that takes at most 8000 steps.
 int steps_to_tell(const StabilityProblem& problem, const PredictedLimit& predicted);
 
 /// A box of cells that holds a wave as near as possible to the given wavenumber [rad a cell]: beside every
