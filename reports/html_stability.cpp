@@ -62,9 +62,11 @@ std::string predicted(const StabilityRecord& record) {
 }
 
 constexpr const char* explanation =
-    "Largest stable step: r = nu dt/h^2 on viscous rays, c dt/h on acoustic ones, both on others. Measured by "
+    "Largest stable step: r = nu dt/h^2 on viscous rays, c dt/h on acoustic ones, both on others. Measured "
+    "by "
     "bisection on the growth of a random perturbation, and predicted from the spectral radius of the "
-    "amplification matrix of the uniform lattice (walls excluded). rest: particles in their seats; offset: at "
+    "amplification matrix of the uniform lattice (walls excluded). rest: particles in their seats; offset: "
+    "at "
     "rest where they are least stable; streaming: carried through there.";
 
 }  // namespace

@@ -134,8 +134,9 @@ struct MatrixRecord {
 /// plane, r = nu dt/h^2 and CFL = c dt/h, on a periodic lattice of square cells.
 struct StabilityRecord {
   std::string study, basis, transfer, stepping;
-  std::string waves;   ///< "shear", "longitudinal" (both along one axis), "plane"
-  std::string motion;  ///< "rest": particles in their seats; "offset", "streaming", "streaming-x": at the worst offset
+  std::string waves;    ///< "shear", "longitudinal" (both along one axis), "plane"
+  std::string motion;   ///< "rest": particles in their seats; "offset", "streaming", "streaming-x": at the
+                        ///< worst offset
   std::string lattice;  ///< particles a cell and how they are seated, e.g. "2 x 2 even"
   std::string kind;     ///< "measured", or "boundary": predicted only, a point of the line in a map
   double r_predicted = 0, cfl_predicted = 0;  ///< spectral radius one; NaN when nothing grows on the ray
@@ -144,25 +145,25 @@ struct StabilityRecord {
   double theta_x = 0, theta_y = 0;            ///< wave that grows first [rad a cell]
   double offset_x = 0, offset_y = 0;          ///< of the particles from their seats then [cells]
   long steps = 0;                             ///< of one measuring run
-  std::string crossing;  ///< streaming at 0.97 of the predicted limit through a whole period of offsets: "stable",
-                         ///< "unstable"; "" where not tried
+  std::string crossing;  ///< streaming at 0.97 of the predicted limit through a whole period of offsets:
+                         ///< "stable", "unstable"; "" where not tried
 };
 
 /// figures.csv: what to draw from the files above. Lists are joined by ';'.
 struct FigureRecord {
   std::string figure;  ///< file stem, unique
   std::string study;
-  std::string kind;    ///< "profiles", "history", "convergence", "work-precision", "shear-rate", "viscosity",
-                       ///< "stability-map"
-  std::string title;   ///< the claim that the figure shows
+  std::string kind;   ///< "profiles", "history", "convergence", "work-precision", "shear-rate", "viscosity",
+                      ///< "stability-map"
+  std::string title;  ///< the claim that the figure shows
   /// Runs to draw (profiles, history, work-precision); "" = all of the study. stability-map: schemes, as
   /// basis_transfer_stepping.
   std::string runs;
-  std::string labels;  ///< a legend entry for each run; "" = run names
-  std::string across;  ///< coordinate of profiles: "x" or "y"; stability-map: waves
-  std::string component;                                ///< velocity component of profiles: "u" or "v"
-  std::string location;  ///< "grid", "particles", or "grid;particles"; stability-map: motions
-  std::string norm;                                     ///< convergence, work-precision: "l1", "l2", "linf"
+  std::string labels;     ///< a legend entry for each run; "" = run names
+  std::string across;     ///< coordinate of profiles: "x" or "y"; stability-map: waves
+  std::string component;  ///< velocity component of profiles: "u" or "v"
+  std::string location;   ///< "grid", "particles", or "grid;particles"; stability-map: motions
+  std::string norm;       ///< convergence, work-precision: "l1", "l2", "linf"
   double t = std::numeric_limits<double>::quiet_NaN();  ///< shear-rate, viscosity: the time shown [s]
 };
 

@@ -18,7 +18,8 @@ TimeStepRule automatic_time_step(const Scheme& scheme, const Scene& scene) {
   const StableStep limit = stable_step(scheme, fewest_particles_per_cell(scene));
   if (!(limit.viscous > 0 && limit.acoustic > 0))
     throw SceneError(
-        "full mass with one particle a cell is stable at no explicit step: seed two or more a cell along every "
+        "full mass with one particle a cell is stable at no explicit step: seed two or more a cell along "
+        "every "
         "axis");
   TimeStepRule rule;
   rule.cfl_viscous = std::min(rule.cfl_viscous, 0.5 * limit.viscous);

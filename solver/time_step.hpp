@@ -19,9 +19,9 @@ struct TimeStepRule {
   double cfl_viscous = 0.2;
 };
 
-/// Half of each limit in solver/stable_step.hpp, but not above cfl_viscous 0.2 and cfl_acoustic 0.5, which keep
-/// the time error small. Viscosity and sound together are stable wherever r/r_max + (CFL/CFL_max)^2 <= 1 (so
-/// it is for stress first, others bear more): halves use three quarters of that, and dt may grow by 1.23
+/// Half of each limit in solver/stable_step.hpp, but not above cfl_viscous 0.2 and cfl_acoustic 0.5, which
+/// keep the time error small. Viscosity and sound together are stable wherever r/r_max + (CFL/CFL_max)^2 <= 1
+/// (so it is for stress first, others bear more): halves use three quarters of that, and dt may grow by 1.23
 /// before anything does. Implicit viscosity has no viscous limit; give it a dt to make use of that. Throws
 /// SceneError where no explicit step is stable (full mass with one particle a cell).
 TimeStepRule automatic_time_step(const Scheme& scheme, const Scene& scene);

@@ -45,7 +45,8 @@ void judge_crossing(const CheckSpec& spec, const StudyData& data, const Stabilit
   CheckSpec stable = spec;
   stable.lower = stable.upper = 0;
   stable.reason = "just below the limit at the worst offset no offset may be unstable";
-  records.push_back(judge(stable, data, what + ": unstable in a whole crossing at 0.97 of the predicted limit",
+  records.push_back(judge(stable, data,
+                          what + ": unstable in a whole crossing at 0.97 of the predicted limit",
                           record.crossing == "stable" ? 0 : 1, "truth"));
 }
 
@@ -64,10 +65,10 @@ void evaluate_limit(const CheckSpec& spec, const StudyData& data, Records& recor
         CheckSpec none = spec;
         none.lower = none.upper = 0;
         none.reason = "no eigenvalue of the amplification matrix exceeds one on this ray";
-        records.push_back(judge(none, data,
-                                fmt::format("{}: grows below r = {:.4g}, CFL = {:.4g}", what, record.r_tested,
-                                            record.cfl_tested),
-                                measured ? 1 : 0, "truth"));
+        records.push_back(judge(
+            none, data,
+            fmt::format("{}: grows below r = {:.4g}, CFL = {:.4g}", what, record.r_tested, record.cfl_tested),
+            measured ? 1 : 0, "truth"));
       }
       if (!record.crossing.empty()) judge_crossing(spec, data, record, what, records);
     }
@@ -94,11 +95,12 @@ void evaluate_automatic(const CheckSpec& spec, const StudyData& data, Records& r
     if (std::ranges::count(spec.variants, one.variant) == 0) continue;
     const mpm::TimeStepRule rule = mpm::automatic_time_step(one.scheme, scene);
     for (const StabilityRecord& record : data.stability) {
-      if (record.kind != "measured" || !of_variant(record, one.variant) ||
-          record.waves != name(one.waves) || record.motion != name(one.passage))
+      if (record.kind != "measured" || !of_variant(record, one.variant) || record.waves != name(one.waves) ||
+          record.motion != name(one.passage))
         continue;
       // The tested step stands for the ray; the rule takes the sharper of its two limits on it.
-      const double share = std::max(record.r_tested / rule.cfl_viscous, record.cfl_tested / rule.cfl_acoustic);
+      const double share =
+          std::max(record.r_tested / rule.cfl_viscous, record.cfl_tested / rule.cfl_acoustic);
       const bool limited = std::isfinite(record.r_measured);
       const double reached = limited ? along_ray(record.r_measured, record.cfl_measured) /
                                            along_ray(record.r_tested, record.cfl_tested)

@@ -17,8 +17,8 @@ int list_command(const ListOptions& options) {
     if (study.suite > suite) continue;
     const double cost = study.particle_steps();
     const std::size_t jobs = study.runs.size() + study.stability.cases.size();
-    fmt::print("{:<30} {:<6} {:>5} {:>16.3g} {:>6.1f} s  {}\n", study.name, name(study.suite),
-               jobs, cost, cost / particle_steps_per_second, study.claim);
+    fmt::print("{:<30} {:<6} {:>5} {:>16.3g} {:>6.1f} s  {}\n", study.name, name(study.suite), jobs, cost,
+               cost / particle_steps_per_second, study.claim);
     total += cost;
     runs += static_cast<long>(jobs);
   }

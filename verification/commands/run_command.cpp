@@ -51,8 +51,7 @@ void print_study_line(const StudyData& data, bool colour) {
       failed ? (colour ? "\033[31mFAIL\033[0m" : "FAIL") : (colour ? "\033[32mpass\033[0m" : "pass");
   fmt::print("{} {:<34} {:>4} of {:>4} checks {:>5} runs {:>8.2f} s\n", verdict, data.study->name,
              data.checks.size() - static_cast<std::size_t>(failed), data.checks.size(),
-             data.runs.size() + data.stability_timings.size(),
-             wall);
+             data.runs.size() + data.stability_timings.size(), wall);
   std::fflush(stdout);
 }
 

@@ -105,8 +105,7 @@ class WaveStep {
 
   /// M (v - start) = dt (force - nu K v)
   [[nodiscard]] Vector implicit(const Vector& start, const Vector& force, double dt) const {
-    const Eigen::Matrix2cd matrix =
-        mass_ * Eigen::Matrix2cd::Identity() + dt * step_.r * symbols_.viscous;
+    const Eigen::Matrix2cd matrix = mass_ * Eigen::Matrix2cd::Identity() + dt * step_.r * symbols_.viscous;
     return matrix.fullPivLu().solve(mass_ * start + dt * force);
   }
 

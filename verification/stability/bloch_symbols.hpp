@@ -23,10 +23,10 @@ struct ParticleLattice {
 /// density and cell mass one. B-splines of uniform knots, evaluated here and not by the solver, which this
 /// is to check.
 struct BlochSymbols {
-  double consistent_mass;    ///< sum_p m_p |N_p|^2, between 0 and 1 (the lumped mass)
-  double remap;              ///< P2G after G2P of a nodal field, lumped mass, without affine fields
-  double affine_remap;       ///< the same with them (APIC)
-  Eigen::Matrix2cd viscous;  ///< K: nodal force -nu K u of sigma/rho = nu (L + L^T - 2/3 tr L)
+  double consistent_mass;     ///< sum_p m_p |N_p|^2, between 0 and 1 (the lumped mass)
+  double remap;               ///< P2G after G2P of a nodal field, lumped mass, without affine fields
+  double affine_remap;        ///< the same with them (APIC)
+  Eigen::Matrix2cd viscous;   ///< K: nodal force -nu K u of sigma/rho = nu (L + L^T - 2/3 tr L)
   Eigen::Matrix2cd dilation;  ///< Q: q -> q - dt Q u, where c^2 q is the nodal force of the densities
 };
 

@@ -64,8 +64,8 @@ mpm::Scene periodic_box(const MeasuringPlan& plan, double dt) {
 
   const Vec2 stream = Vec2(plan.travel[0], plan.travel[1]) / (plan.steps * dt);
   const Vec2 mask(problem.waves != Waves::Longitudinal, problem.waves != Waves::Shear);
-  scene.initial_velocity = [stream, mask, dt, u = Noise(plan.cells, 1), v = Noise(plan.cells, 2)](
-                               const Vec2& x) -> Vec2 {
+  scene.initial_velocity = [stream, mask, dt, u = Noise(plan.cells, 1),
+                            v = Noise(plan.cells, 2)](const Vec2& x) -> Vec2 {
     return stream + amplitude / dt * mask.cwiseProduct(Vec2(u(x), v(x)));
   };
   if (scene.fluid.pressure)

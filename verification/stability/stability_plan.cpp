@@ -14,12 +14,12 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Rays are followed up to here: beyond every explicit limit (r <= 4, CFL <= 3) by a factor ten. What is stable
-// there is said to have no limit up to it.
+// Rays are followed up to here: beyond every explicit limit (r <= 4, CFL <= 3) by a factor ten. What is
+// stable there is said to have no limit up to it.
 constexpr double largest_multiple = 40;
 // How far a stream carries the particles from the worst offset while growth is looked for [cells]: little, as
-// neighbouring offsets are more stable, by up to 4 times this fraction for the linear basis, whose limit has a
-// kink there.
+// neighbouring offsets are more stable, by up to 4 times this fraction for the linear basis, whose limit has
+// a kink there.
 constexpr double local_travel = 0.003;
 // The fraction of the predicted limit at which a whole crossing must be stable, and the steps that it takes.
 constexpr double crossing_fraction = 0.97;
@@ -112,7 +112,8 @@ Passage passage_named(const std::string& text) {
 ParticleLattice read_lattice(TomlTable& table) {
   ParticleLattice lattice;
   const int per_cell = table.integer("particles_per_cell", 2);
-  if (per_cell < 1 || per_cell > 8) table.fail("particles_per_cell", "must lie in [1, 8] (along either axis)");
+  if (per_cell < 1 || per_cell > 8)
+    table.fail("particles_per_cell", "must lie in [1, 8] (along either axis)");
   lattice.per_cell = {per_cell, per_cell};
   const std::string seeding = table.text("seeding", "even");
   if (seeding != "even" && seeding != "gauss") table.fail("seeding", "must be \"even\" or \"gauss\"");

@@ -10,8 +10,8 @@
 namespace verification {
 
 /// What the particles do while a limit is measured. Seats: at rest where they are seeded. Offset: at rest
-/// where they are least stable. Streaming: there, carried on by a slow stream, and at a little below the limit
-/// through a whole period of offsets. StreamingX: the same along x alone, as a flow along plates.
+/// where they are least stable. Streaming: there, carried on by a slow stream, and at a little below the
+/// limit through a whole period of offsets. StreamingX: the same along x alone, as a flow along plates.
 enum class Passage { Seats, Offset, Streaming, StreamingX };
 std::string name(Passage passage);
 

@@ -39,9 +39,8 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
   reports::FigureRecord figure;
   figure.study = study.name;
   figure.kind = table.text("kind");
-  static const std::vector<std::string> kinds = {"profiles",       "history",    "convergence",
-                                                 "work-precision", "shear-rate", "viscosity",
-                                                 "stability-map"};
+  static const std::vector<std::string> kinds = {"profiles",   "history",   "convergence",  "work-precision",
+                                                 "shear-rate", "viscosity", "stability-map"};
   if (std::ranges::count(kinds, figure.kind) == 0) table.fail("kind", "must be one of: " + joined(kinds));
   figure.title = table.text("title");
   if (figure.kind == "stability-map") {

@@ -37,7 +37,7 @@ struct StudyData {
   std::vector<reports::CheckRecord> checks;
   std::vector<reports::ClaimRecord> claims;
   std::vector<reports::MatrixRecord> matrix;
-  std::vector<reports::StabilityRecord> stability;    ///< in the order of study->stability.cases
+  std::vector<reports::StabilityRecord> stability;       ///< in the order of study->stability.cases
   std::vector<reports::TimingRecord> stability_timings;  ///< one a case
 
   [[nodiscard]] std::vector<const RunData*> runs_of(const std::string& variant) const {
