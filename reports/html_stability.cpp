@@ -29,7 +29,7 @@ std::string ray_of(const StabilityRecord& record) {
 }
 
 std::string column_of(const StabilityRecord& record) {
-  return record.waves + ", " + record.motion + ", " + ray_of(record) + " (" + record.lattice + ")";
+  return record.waves + " waves, " + record.motion + "; " + ray_of(record) + "; " + record.lattice;
 }
 
 Layout layout(const std::vector<StabilityRecord>& limits) {
@@ -75,7 +75,11 @@ std::string html_stability(const std::vector<StabilityRecord>& limits) {
   const Layout table = layout(limits);
   if (table.rows.empty()) return "";
   std::string head = "<th>basis, transfer, stepping</th>";
-  for (const std::string& column : table.columns) head += "<th>" + html_text(column) + "</th>";
+  for (const std::string& column : table.columns) {
+    std::string title = html_text(column);
+    for (std::size_t at = 0; (at = title.find("; ", at)) != std::string::npos;) title.replace(at, 2, "<br>");
+    head += "<th class=\"n\">" + title + "</th>";
+  }
   std::string rows;
   for (const std::string& row : table.rows) {
     rows += "<tr><td class=\"w\">" + html_text(row) + "</td>";

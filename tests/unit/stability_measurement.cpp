@@ -72,14 +72,14 @@ TEST_CASE("perturbations of the solver grow by the spectral radius, for every sc
     plan.problem.scheme = scheme;
     plan.problem.waves = Waves::Plane;
     plan.problem.ray = {0.3, 0.7};
-    plan.cells = {6, 7};
+    plan.cells = {5, 4};         // few waves, far apart
     plan.offset = {0.11, 0.17};  // no symmetry left
     plan.steps = 400;
     const double multiple = multiple_of_radius(plan, 1.3);
     const double predicted = radius_in_box(plan, multiple);
     const double measured = measured_growth(plan, multiple);
-    // From a thousand to a million times the first amplitude 1.3 takes 27 steps; what other waves add to that
-    // is below a factor e^(1/2), 2 % a step. Largest difference measured: see the margin's half.
+    // While the energy grows 1e5-fold, waves that are nearly as fast still fall behind, and pairs of complex
+    // eigenvalues beat: they change the outcome by less than a factor 1.6, of 1e5 4 % in the logarithm.
     CHECK(std::log(measured) == Approx(std::log(predicted)).epsilon(0.04));
   }
 }
@@ -127,23 +127,24 @@ TEST_CASE("a shifted lattice is moved around the periodic domain, and not betwee
 
 TEST_CASE("the solver's table of stable steps holds what amplification matrices predict") {
   for (const Scheme& scheme : all_schemes()) {
-    if (scheme.stepping == Scheme::Stepping::Musl || scheme.stepping == Scheme::Stepping::ImplicitEuler)
-      continue;  // as stress first
+    // MUSL and backward Euler have the limits of USF, and SDIRK2 those of the leapfrog; a blend takes the
+    // smaller of its two parts.
+    if (scheme.stepping != Scheme::Stepping::Usf && scheme.stepping != Scheme::Stepping::Usl &&
+        scheme.stepping != Scheme::Stepping::Leapfrog)
+      continue;
+    if (scheme.transfer == Scheme::Transfer::FlipBlend) continue;
     INFO(name_of(scheme));
     StabilityProblem problem{scheme, {{2, 2}, true}, Waves::Plane, {0, 1}};
     const mpm::StableStep stated = mpm::stable_step(scheme, 2);
     const double acoustic = predict_limit(problem, Motion::Any, 40).multiple.value_or(NAN);
-    // Four digits, rounded down. A blend takes the smaller of its two parts, of which it may bear more.
-    const bool blend = scheme.transfer == Scheme::Transfer::FlipBlend;
-    const double lowest = 0.998, highest = blend ? 10 : 1.003;
+    // Four digits: 0.0383 may be off by 0.13 %. Cubic entries are the smaller of Gauss and even seats.
+    const double lowest = 0.998, highest = 1.003;
     CHECK(acoustic / stated.acoustic > lowest);
     CHECK(acoustic / stated.acoustic < highest);
     problem.ray = {1, 0};
-    const auto viscous = predict_limit(problem, Motion::Any, 40).multiple;
-    REQUIRE(viscous.has_value() == std::isfinite(stated.viscous));
-    if (!viscous) continue;
-    CHECK(*viscous / stated.viscous > lowest);
-    CHECK(*viscous / stated.viscous < highest);
+    const double viscous = predict_limit(problem, Motion::Any, 40).multiple.value_or(NAN);
+    CHECK(viscous / stated.viscous > lowest);
+    CHECK(viscous / stated.viscous < highest);
   }
 }
 

@@ -50,7 +50,19 @@ void judge_crossing(const CheckSpec& spec, const StudyData& data, const Stabilit
                           record.crossing == "stable" ? 0 : 1, "truth"));
 }
 
+/// A scheme whose measurements failed has no records, and no check would speak of it.
+void require_records(const CheckSpec& spec, const StudyData& data, Records& records) {
+  for (const std::string& variant : spec.variants)
+    for (const StabilityCase& one : data.study->stability.cases)
+      if (one.variant == variant && std::ranges::none_of(data.stability, [&](const StabilityRecord& record) {
+            return of_variant(record, variant) && record.waves == name(one.waves) &&
+                   record.motion == name(one.passage);
+          }))
+        records.push_back(judge(spec, data, one.name() + ": no limit could be measured", std::nan(""), "1"));
+}
+
 void evaluate_limit(const CheckSpec& spec, const StudyData& data, Records& records) {
+  require_records(spec, data, records);
   for (const std::string& variant : spec.variants)
     for (const StabilityRecord& record : data.stability) {
       if (record.kind != "measured" || !of_variant(record, variant)) continue;
