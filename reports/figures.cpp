@@ -123,10 +123,12 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
     figure = convergence_figure(record, results);
   } else if (record.kind == "work-precision") {
     figure = work_precision_figure(record, results);
+  } else if (record.kind == "stability-map") {
+    figure = stability_figure(record, results);
   } else {
     throw IoError(
         fmt::format("figures.csv: figure '{}' is of unknown kind '{}'; known are profiles, history, "
-                    "energy, convergence, work-precision, shear-rate, viscosity, pressure",
+                    "energy, convergence, work-precision, shear-rate, viscosity, pressure, stability-map",
                     record.figure, record.kind));
   }
   figure.name = record.figure;

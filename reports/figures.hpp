@@ -34,6 +34,8 @@ Figure shear_figure(const std::filesystem::path& dir, const FigureRecord& record
 Figure pressure_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
 Figure convergence_figure(const FigureRecord& record, const Results& results);
 Figure work_precision_figure(const FigureRecord& record, const Results& results);
+/// Stable regions in the plane of r = nu dt/h^2 and c dt/h: predicted boundaries, measured points.
+Figure stability_figure(const FigureRecord& record, const Results& results);
 
 // What the kinds share.
 

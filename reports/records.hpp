@@ -173,18 +173,41 @@ struct ScoreRecord {
   std::string thresholds;                     ///< reason of the thresholds
 };
 
+/// stability.csv: the largest stable time step of one scheme along one ray from the origin of the (r, CFL)
+/// plane, r = nu dt/h^2 and CFL = c dt/h, on a periodic lattice of square cells.
+struct StabilityRecord {
+  std::string study, basis, transfer, stepping;
+  std::string waves;    ///< "shear", "longitudinal" (both along one axis), "plane"
+  std::string motion;   ///< "rest": particles in their seats; "offset", "streaming", "streaming-x": at the
+                        ///< worst offset
+  std::string lattice;  ///< particles a cell and how they are seated, e.g. "2 x 2 even"
+  std::string kind;     ///< "measured", or "boundary": predicted only, a point of the line in a map
+  double r_predicted = 0, cfl_predicted = 0;  ///< spectral radius one; NaN when nothing grows on the ray
+  double r_measured = 0, cfl_measured = 0;    ///< by the solver; NaN when nothing grew
+  double r_tested = 0, cfl_tested = 0;        ///< the largest step tried on the ray
+  double theta_x = 0, theta_y = 0;            ///< wave that grows first [rad a cell]
+  double offset_x = 0, offset_y = 0;          ///< of the particles from their seats then [cells]
+  long steps = 0;                             ///< of one measuring run
+  std::string crossing;  ///< streaming at 0.97 of the predicted limit through a whole period of offsets:
+                         ///< "stable", "unstable"; "" where not tried
+};
+
 /// figures.csv: what to draw from the files above. Lists are joined by ';'.
 struct FigureRecord {
   std::string figure;  ///< file stem, unique
   std::string study;
-  /// "profiles", "history", "energy", "convergence", "work-precision", "shear-rate", "viscosity", "pressure"
+  /// "profiles", "history", "energy", "convergence", "work-precision", "shear-rate", "viscosity", "pressure",
+  /// "stability-map"
   std::string kind;
-  std::string title;      ///< the claim that the figure shows
-  std::string runs;       ///< runs to draw (profiles, history, work-precision); "" = all of the study
+  std::string title;  ///< the claim that the figure shows
+  /// Runs to draw (profiles, history, work-precision); "" = all of the study. stability-map: schemes, as
+  /// basis_transfer_stepping.
+  std::string runs;
   std::string labels;     ///< a legend entry for each run; "" = run names
-  std::string across;     ///< profiles: "x" or "y"; work-precision: "wall" or "particle-steps"
+  std::string across;     ///< profiles: "x" or "y"; work-precision: "wall" or "particle-steps";
+                          ///< stability-map: waves
   std::string component;  ///< velocity component of profiles: "u" or "v"
-  std::string location;   ///< "grid", "particles", or "grid;particles"
+  std::string location;   ///< "grid", "particles", or "grid;particles"; stability-map: motions
   std::string norm;       ///< convergence, work-precision: "l1", "l2", "linf"
   double t = std::numeric_limits<double>::quiet_NaN();  ///< shear-rate, viscosity, pressure: the time [s]
 };
@@ -202,6 +225,7 @@ struct Results {
   std::vector<ClaimRecord> claims;
   std::vector<MatrixRecord> matrix;
   std::vector<ScoreRecord> scores;
+  std::vector<StabilityRecord> stability;
 };
 
 }  // namespace reports

@@ -7,6 +7,7 @@
 #include "reports/html_matrix.hpp"
 #include "reports/html_page.hpp"
 #include "reports/html_scoreboard.hpp"
+#include "reports/html_stability.hpp"
 #include "reports/html_study.hpp"
 #include "reports/scoreboard.hpp"
 #include "reports/work_precision.hpp"
@@ -37,6 +38,7 @@ std::string contents(const ReportData& data) {
   std::string text = "<nav aria-label=\"Contents\">\n<b>Contents</b>\n<ul>\n";
   if (!data.results.matrix.empty()) text += "<li><a href=\"#matrix\">Order matrix</a></li>\n";
   if (!data.results.scores.empty()) text += "<li><a href=\"#scoreboard\">Stability scoreboard</a></li>\n";
+  if (!data.results.stability.empty()) text += "<li><a href=\"#stability\">Stability limits</a></li>\n";
   if (!data.results.claims.empty()) text += "<li><a href=\"#claims\">Claims judged</a></li>\n";
   if (!cheapest_runs(data.results).empty())
     text += "<li><a href=\"#cheapest\">Cheapest way to an error</a></li>\n";
@@ -147,6 +149,7 @@ std::string html_report(const std::filesystem::path& dir, const ReportData& data
   body += html_scoreboard(data.results.scores);
   body += html_matrix(data.results.matrix);
   body += html_cheapest(data.results);
+  body += html_stability(data.results.stability);
   for (const StudyRecord& study : studies_of(data.results)) body += html_study(dir, data, study);
   body += run_section(data.results);
   body += provenance_section(data.provenance);

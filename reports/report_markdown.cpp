@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "reports/html_matrix.hpp"
+#include "reports/html_stability.hpp"
 #include "reports/scoreboard.hpp"
 #include "reports/work_precision.hpp"
 
@@ -187,6 +188,7 @@ std::string markdown_report(const ReportData& data) {
   text += markdown_scoreboard(data.results.scores);
   text += markdown_matrix(data.results.matrix);
   text += markdown_cheapest(data.results);
+  text += markdown_stability(data.results.stability);
   text += check_section(data.results);
   text += order_section(data.results);
   text += diverged_section(data.results);

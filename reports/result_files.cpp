@@ -149,6 +149,28 @@ constexpr auto score_columns = std::make_tuple(              //
     column("reason", &ScoreRecord::reason),                  //
     column("thresholds", &ScoreRecord::thresholds));
 
+constexpr auto stability_columns = std::make_tuple(            //
+    column("study", &StabilityRecord::study),                  //
+    column("basis", &StabilityRecord::basis),                  //
+    column("transfer", &StabilityRecord::transfer),            //
+    column("stepping", &StabilityRecord::stepping),            //
+    column("waves", &StabilityRecord::waves),                  //
+    column("motion", &StabilityRecord::motion),                //
+    column("lattice", &StabilityRecord::lattice),              //
+    column("kind", &StabilityRecord::kind),                    //
+    column("r_predicted", &StabilityRecord::r_predicted),      //
+    column("cfl_predicted", &StabilityRecord::cfl_predicted),  //
+    column("r_measured", &StabilityRecord::r_measured),        //
+    column("cfl_measured", &StabilityRecord::cfl_measured),    //
+    column("r_tested", &StabilityRecord::r_tested),            //
+    column("cfl_tested", &StabilityRecord::cfl_tested),        //
+    column("theta_x", &StabilityRecord::theta_x),              //
+    column("theta_y", &StabilityRecord::theta_y),              //
+    column("offset_x", &StabilityRecord::offset_x),            //
+    column("offset_y", &StabilityRecord::offset_y),            //
+    column("steps", &StabilityRecord::steps),                  //
+    column("crossing", &StabilityRecord::crossing));
+
 constexpr auto shear_columns = std::make_tuple(   //
     column("t", &ShearRow::t),                    //
     column("location", &ShearRow::location),      //
@@ -232,6 +254,7 @@ Results read_results(const std::filesystem::path& dir) {
   results.claims = read_csv(dir / "claims.csv", claim_columns);
   results.matrix = read_csv(dir / "matrix.csv", matrix_columns);
   results.scores = read_csv(dir / "scoreboard.csv", score_columns);
+  results.stability = read_csv(dir / "stability.csv", stability_columns);
   require_plain_names(results);
   return results;
 }
@@ -250,6 +273,7 @@ void write_results(const std::filesystem::path& dir, const Results& results, Dur
   write_csv(dir / "claims.csv", claim_columns, results.claims, durability);
   write_csv(dir / "matrix.csv", matrix_columns, results.matrix, durability);
   write_csv(dir / "scoreboard.csv", score_columns, results.scores, durability);
+  write_csv(dir / "stability.csv", stability_columns, results.stability, durability);
 }
 
 void remove_tables(const std::filesystem::path& dir) {
@@ -257,7 +281,7 @@ void remove_tables(const std::filesystem::path& dir) {
   // checks.csv goes first: without it nobody takes what is left for a result.
   for (const char* name : {"checks.csv", "report.html", "report.md", "junit.xml", "studies.csv", "runs.csv",
                            "errors.csv", "levels.csv", "orders.csv", "timing.csv", "figures.csv",
-                           "claims.csv", "matrix.csv", "scoreboard.csv"})
+                           "claims.csv", "matrix.csv", "scoreboard.csv", "stability.csv"})
     std::filesystem::remove(dir / name, ignored);
   for (const char* part : {".", "profiles", "scenes", "figures"})
     for (const auto& entry : std::filesystem::directory_iterator(dir / part, ignored))

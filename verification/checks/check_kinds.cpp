@@ -9,6 +9,7 @@
 #include "verification/checks/check_reader.hpp"
 #include "verification/checks/comparison.hpp"
 #include "verification/checks/outcome_check.hpp"
+#include "verification/checks/stability_checks.hpp"
 #include "verification/study/measures.hpp"
 #include "verification/study/scheme_matrix.hpp"
 
@@ -211,6 +212,7 @@ const std::vector<CheckKind>& check_kinds() {
     add_quantity_kinds(list);
     add_outcome_kind(list);
     add_chatter_kind(list);
+    add_stability_kinds(list);
     return list;
   }();
   return kinds;

@@ -50,11 +50,12 @@ void print_study_line(const StudyData& data, bool colour) {
       std::ranges::count_if(data.checks, [](const auto& check) { return check.verdict != "pass"; });
   double wall = 0;
   for (const RunData& run : data.runs) wall += run.timing.wall_s;
+  for (const auto& timing : data.stability_timings) wall += timing.wall_s;
   const char* verdict =
       failed ? (colour ? "\033[31mFAIL\033[0m" : "FAIL") : (colour ? "\033[32mpass\033[0m" : "pass");
   fmt::print("{} {:<34} {:>4} of {:>4} checks {:>5} runs {:>8.2f} s\n", verdict, data.study->name,
-             data.checks.size() - static_cast<std::size_t>(failed), data.checks.size(), data.runs.size(),
-             wall);
+             data.checks.size() - static_cast<std::size_t>(failed), data.checks.size(),
+             data.runs.size() + data.stability_timings.size(), wall);
   std::fflush(stdout);
 }
 

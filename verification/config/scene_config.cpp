@@ -79,7 +79,7 @@ std::vector<double> read_outputs(TomlTable& table) {
   return outputs;
 }
 
-mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme) {
+mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme, const mpm::Scene& scene) {
   mpm::TimeStepRule rule;
   if (table.has("dt")) {
     rule.dt = table.positive("dt");
@@ -87,10 +87,18 @@ mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme) {
       if (table.has(key)) table.fail(key, "cannot stand beside dt: give either a step or its limits");
     return rule;
   }
+  if (table.has("cfl_acoustic") && table.has("cfl_viscous")) {
+    rule.cfl_acoustic = table.positive("cfl_acoustic");
+    rule.cfl_viscous = table.positive("cfl_viscous");
+    return rule;
+  }
+  try {
+    rule = mpm::automatic_time_step(scheme, scene);
+  } catch (const mpm::SceneError& error) {
+    table.fail("dt", error.what());
+  }
   rule.cfl_acoustic = table.positive("cfl_acoustic", rule.cfl_acoustic);
-  // Full mass is the stiffest (limits in solver/time_step.hpp).
-  const bool full_mass = scheme.transfer == mpm::Scheme::Transfer::FullMass;
-  rule.cfl_viscous = table.positive("cfl_viscous", full_mass ? 0.5 * rule.cfl_viscous : rule.cfl_viscous);
+  rule.cfl_viscous = table.positive("cfl_viscous", rule.cfl_viscous);
   return rule;
 }
 
@@ -151,9 +159,11 @@ SceneConfig read_scene_config(TomlTable root) {
   if (time.has("reference_times")) config.more_reference_times = time.numbers("reference_times");
   for (const double t : config.more_reference_times)
     if (!(t > 0)) time.fail("reference_times", "must be positive");
-  config.time_step = read_time_step(time, config.scheme);
   config.history_samples = time.integer("history_samples", 100);
   if (config.history_samples < 1) time.fail("history_samples", "must be at least 1");
+  config.scene = config.flow->scene(config.discretisation);
+  config.scene.seeding = seeding;
+  config.time_step = read_time_step(time, config.scheme, config.scene);
   time.refuse_unknown_keys();
   root.refuse_unknown_keys();
   try {

@@ -12,16 +12,46 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+void read_name(TomlTable& table, const Study& study, reports::FigureRecord& figure) {
+  figure.figure = study.name + "-" + table.text("name", figure.kind);
+  if (std::ranges::any_of(study.figures, [&](const auto& other) { return other.figure == figure.figure; }))
+    table.fail("name", "a second figure of this kind needs a name of its own");
+}
+
+/// Schemes, waves and motions of a map.
+void read_map(TomlTable& table, const Study& study, reports::FigureRecord& figure) {
+  if (study.stability.cases.empty()) table.fail("kind", "\"stability-map\" needs a [stability]");
+  figure.across = table.text("waves");
+  const auto motions = table.texts("motions");
+  const auto variants = table.has("variants") ? table.texts("variants") : study.variants;
+  for (const std::string& motion : motions)
+    for (const std::string& variant : variants)
+      if (std::ranges::none_of(study.stability.cases, [&](const StabilityCase& one) {
+            return one.name() == variant + "." + figure.across + "." + motion;
+          }))
+        table.fail("variants", "no limit of '" + variant + "' with these waves and motions is measured");
+  figure.runs = joined(variants);
+  figure.location = joined(motions);
+}
+
 }  // namespace
 
 reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
   reports::FigureRecord figure;
   figure.study = study.name;
   figure.kind = table.text("kind");
-  static const std::vector<std::string> kinds = {"profiles",       "history",    "energy",    "convergence",
-                                                 "work-precision", "shear-rate", "viscosity", "pressure"};
+  static const std::vector<std::string> kinds = {"profiles",    "history",        "energy",
+                                                 "convergence", "work-precision", "shear-rate",
+                                                 "viscosity",   "pressure",       "stability-map"};
   if (std::ranges::count(kinds, figure.kind) == 0) table.fail("kind", "must be one of: " + joined(kinds));
   figure.title = table.text("title");
+  if (figure.kind == "stability-map") {
+    read_map(table, study, figure);
+    read_name(table, study, figure);
+    table.refuse_unknown_keys();
+    return figure;
+  }
+  if (study.runs.empty()) table.fail("kind", "needs runs, and a study with [stability] has none");
   figure.norm = table.text("norm", "l2");
   if (figure.norm != "l1" && figure.norm != "l2" && figure.norm != "linf")
     table.fail("norm", "must be \"l1\", \"l2\" or \"linf\"");
@@ -61,9 +91,7 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
     if (figure.across != "wall" && figure.across != "particle-steps")
       table.fail("cost", "must be \"wall\" or \"particle-steps\"");
   }
-  figure.figure = study.name + "-" + table.text("name", figure.kind);
-  if (std::ranges::any_of(study.figures, [&](const auto& other) { return other.figure == figure.figure; }))
-    table.fail("name", "a second figure of this kind needs a name of its own");
+  read_name(table, study, figure);
   table.refuse_unknown_keys();
   return figure;
 }

@@ -41,6 +41,8 @@ struct StudyData {
   std::vector<reports::ClaimRecord> claims;
   std::vector<reports::MatrixRecord> matrix;
   std::vector<reports::ScoreRecord> scores;
+  std::vector<reports::StabilityRecord> stability;       ///< in the order of study->stability.cases
+  std::vector<reports::TimingRecord> stability_timings;  ///< one a case
 
   [[nodiscard]] std::vector<const RunData*> runs_of(const std::string& variant) const {
     std::vector<const RunData*> found;

@@ -7,6 +7,7 @@
 
 #include "reports/records.hpp"
 #include "verification/config/scene_config.hpp"
+#include "verification/stability/stability_plan.hpp"
 #include "verification/study/scoreboard.hpp"
 
 namespace verification {
@@ -86,6 +87,7 @@ struct Study {
   int repetitions = 0;
   std::vector<std::string> variants;
   std::vector<PlannedRun> runs;  ///< variant by variant, coarse to fine
+  StabilityPlan stability;       ///< in place of runs: limits to measure
   std::vector<CheckSpec> checks;
   std::vector<ClaimSpec> claims;
   std::vector<reports::FigureRecord> figures;

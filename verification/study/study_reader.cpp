@@ -118,6 +118,17 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
   }
 }
 
+/// A study of limits has schemes, and boxes of its own instead of a scene.
+void read_limits(Study& study, TomlTable& root) {
+  if (!study.matrix) root.fail("stability", "needs the [matrix] of schemes whose limits it measures");
+  for (const char* key : {"ladder", "solver", "variant", "compare_with"})
+    if (root.has(key)) root.fail(key, "has no meaning beside [stability]");
+  const std::vector<MatrixEntry> matrix = read_matrix(root.table("matrix"));
+  for (const MatrixEntry& entry : matrix) study.variants.push_back(entry.variant);
+  study.stability = read_stability(root.table("stability"), matrix);
+  study.stability.toml = root.restricted_to({"matrix", "stability"}).print();
+}
+
 void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
   if (study.matrix) {
     for (const MatrixEntry& entry : read_matrix(root.table("matrix"))) {
@@ -227,10 +238,14 @@ Study read_study(const std::filesystem::path& file) {
     study.solver_command = solver.text("command");
     solver.refuse_unknown_keys();
   }
-  for (const std::string& key : scene_tables()) root.accept(key);
-  read_variants(study, root, root.restricted_to(scene_tables()));
-  require_comparable(root, study);
-  read_scoreboard(root, study);
+  if (root.has("stability")) {
+    read_limits(study, root);
+  } else {
+    for (const std::string& key : scene_tables()) root.accept(key);
+    read_variants(study, root, root.restricted_to(scene_tables()));
+    require_comparable(root, study);
+    read_scoreboard(root, study);
+  }
   for (TomlTable& table : root.tables("check")) study.checks.push_back(read_check(table, study));
   if (study.checks.empty())
     root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");

@@ -8,6 +8,7 @@ namespace {
 
 /// What the scenes of a study were declared not to need (DESIGN: model only what a scene needs).
 std::string left_out(const Study& study) {
+  if (study.runs.empty()) return "walls (a uniform periodic lattice)";
   const auto all = [&](auto&& holds) { return std::ranges::all_of(study.runs, holds); };
   const auto any = [&](auto&& holds) { return std::ranges::any_of(study.runs, holds); };
   const auto words = [&](auto&& holds, const std::string& what) {
@@ -48,6 +49,8 @@ reports::Results collect(const std::vector<const StudyData*>& studies) {
     append(results.claims, data->claims);
     append(results.matrix, data->matrix);
     append(results.scores, data->scores);
+    append(results.stability, data->stability);
+    append(results.timings, data->stability_timings);
     append(results.figures, study.figures);
   }
   std::ranges::stable_sort(results.claims, {}, place_in_paper);

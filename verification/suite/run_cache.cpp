@@ -21,10 +21,15 @@ namespace fs = std::filesystem;
 // To be raised with any change of the bytes in a file; what is computed is part of the build's identity.
 constexpr const char* format = "mpm-verify run, format 1\n";
 
+/// The text that decides something, with what decides everything: the build.
+std::string key_of(const std::string& content) {
+  return fmt::format("{}build {}\n{}\n", format, build_identity(), content);
+}
+
 /// All that decides the result of a run, as text.
-std::string key_of(const Study& study, const PlannedRun& plan) {
-  return fmt::format("{}build {}\ncompared with {}\nrepetitions {}\n{}\n", format, build_identity(),
-                     static_cast<int>(study.comparison), study.repetitions, plan.scene.toml);
+std::string content_of(const Study& study, const PlannedRun& plan) {
+  return fmt::format("compared with {}\nrepetitions {}\n{}", static_cast<int>(study.comparison),
+                     study.repetitions, plan.scene.toml);
 }
 
 std::string checksum_of(const std::string& body) {
@@ -69,21 +74,23 @@ RunCache::RunCache(const fs::path& directory, CacheUse use) : use_(use) {
   fs::last_write_time(own_, fs::file_time_type::clock::now(), ignored);  // in use: prune() goes by this
 }
 
-fs::path RunCache::file(const Study& study, const PlannedRun& plan) const {
-  if (!on() || !study.solver_command.empty()) return {};
-  return own_ / (reports::content_name(key_of(study, plan)) + ".run");
+fs::path RunCache::file_of(const std::string& key) const {
+  return on() ? own_ / (reports::content_name(key) + ".run") : fs::path();
 }
 
-std::optional<RunData> RunCache::load(const Study& study, const PlannedRun& plan) const {
-  const fs::path path = file(study, plan);
-  if (path.empty() || use_ != CacheUse::Reuse) return std::nullopt;
+fs::path RunCache::file(const Study& study, const PlannedRun& plan) const {
+  return study.solver_command.empty() ? file_of(key_of(content_of(study, plan))) : fs::path();
+}
+
+std::optional<std::string> RunCache::load(const std::string& content) const {
+  if (use_ != CacheUse::Reuse) return std::nullopt;
+  const std::string key = key_of(content);
   std::string bytes;
   try {
-    bytes = reports::read_file(path);
+    bytes = reports::read_file(file_of(key));
   } catch (const reports::IoError&) {
     return std::nullopt;
   }
-  const std::string key = key_of(study, plan);
   constexpr std::size_t checksum_size = sizeof(std::uint64_t);
   if (bytes.size() < key.size() + checksum_size || bytes.compare(0, key.size(), key) != 0)
     return std::nullopt;
@@ -91,20 +98,28 @@ std::optional<RunData> RunCache::load(const Study& study, const PlannedRun& plan
   bytes.resize(bytes.size() - checksum_size);
   bytes.erase(0, key.size());
   if (checksum != checksum_of(bytes)) return std::nullopt;
-  return decode_run(bytes, study, plan);
+  return bytes;
 }
 
-void RunCache::save(const Study& study, const RunData& data) {
-  const fs::path path = file(study, *data.plan);
-  if (path.empty()) return;
+std::optional<RunData> RunCache::load(const Study& study, const PlannedRun& plan) const {
+  if (!study.solver_command.empty()) return std::nullopt;
+  const std::optional<std::string> bytes = load(content_of(study, plan));
+  return bytes ? decode_run(*bytes, study, plan) : std::nullopt;
+}
+
+void RunCache::save(const std::string& content, const std::string& bytes) {
+  if (!on()) return;
+  const std::string key = key_of(content);
   try {
-    const std::string body = encode_run(data);
-    reports::write_file(path, key_of(study, *data.plan) + body + checksum_of(body),
-                        reports::Durability::Unsynced);
+    reports::write_file(file_of(key), key + bytes + checksum_of(bytes), reports::Durability::Unsynced);
     ++saved_;
   } catch (const reports::IoError&) {
     ++lost_;
   }
+}
+
+void RunCache::save(const Study& study, const RunData& data) {
+  if (study.solver_command.empty()) save(content_of(study, *data.plan), encode_run(data));
 }
 
 std::string RunCache::warning() const {

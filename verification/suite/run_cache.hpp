@@ -29,8 +29,11 @@ class RunCache {
 
   /// The finished run with this content, if it is there and whole. Never throws for a bad file.
   [[nodiscard]] std::optional<RunData> load(const Study& study, const PlannedRun& plan) const;
+  /// Bytes kept for what this text decides, likewise.
+  [[nodiscard]] std::optional<std::string> load(const std::string& content) const;
   /// Keeps a run that completed or diverged. A disk that is full or cannot be written is noted, no failure.
   void save(const Study& study, const RunData& data);
+  void save(const std::string& content, const std::string& bytes);
 
   [[nodiscard]] bool on() const { return use_ != CacheUse::Off; }
   /// One line on what could not be kept and why; "" if all is well.
@@ -45,6 +48,8 @@ class RunCache {
   [[nodiscard]] std::filesystem::path file(const Study& study, const PlannedRun& plan) const;
 
  private:
+  [[nodiscard]] std::filesystem::path file_of(const std::string& key) const;
+
   CacheUse use_;
   std::filesystem::path runs_, own_;  // <cache>/runs and <cache>/runs/<build>
   std::atomic<long> saved_{0}, lost_{0};

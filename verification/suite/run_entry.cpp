@@ -50,6 +50,14 @@ class ByteWriter {
     put_all(t, location, x, y, density, density_exact, pressure, pressure_exact);
   }
   void put_row(const mpm::Vec2& x) { put_all(x.x(), x.y()); }
+  void put_row(const reports::StabilityRecord& row) {
+    const auto& [study, basis, transfer, stepping, waves, motion, lattice, kind, r_predicted, cfl_predicted,
+                 r_measured, cfl_measured, r_tested, cfl_tested, theta_x, theta_y, offset_x, offset_y, steps,
+                 crossing] = row;
+    static_cast<void>(study);  // the one that asks
+    put_all(basis, transfer, stepping, waves, motion, lattice, kind, r_predicted, cfl_predicted, r_measured,
+            cfl_measured, r_tested, cfl_tested, theta_x, theta_y, offset_x, offset_y, steps, crossing);
+  }
 
   std::string bytes_;
 };
@@ -111,6 +119,14 @@ class ByteReader {
     get_all(t, location, x, y, density, density_exact, pressure, pressure_exact);
   }
   void get_row(mpm::Vec2& x) { get_all(x.x(), x.y()); }
+  void get_row(reports::StabilityRecord& row) {
+    auto& [study, basis, transfer, stepping, waves, motion, lattice, kind, r_predicted, cfl_predicted,
+           r_measured, cfl_measured, r_tested, cfl_tested, theta_x, theta_y, offset_x, offset_y, steps,
+           crossing] = row;
+    static_cast<void>(study);
+    get_all(basis, transfer, stepping, waves, motion, lattice, kind, r_predicted, cfl_predicted, r_measured,
+            cfl_measured, r_tested, cfl_tested, theta_x, theta_y, offset_x, offset_y, steps, crossing);
+  }
 
   const std::string& bytes_;
   std::size_t at_ = 0;
@@ -166,6 +182,23 @@ std::optional<RunData> decode_run(const std::string& bytes, const Study& study, 
   data.timing.repetitions = static_cast<long>(repetitions);
   data.timing.source = reports::timing_from_cache;
   return data;
+}
+
+std::string encode_limits(const MeasuredLimits& limits) {
+  ByteWriter writer;
+  writer.put(limits.wall_s);
+  writer.put(limits.records);
+  return writer.take();
+}
+
+std::optional<MeasuredLimits> decode_limits(const std::string& bytes, const std::string& study) {
+  ByteReader reader(bytes);
+  MeasuredLimits limits;
+  reader.get(limits.wall_s);
+  reader.get(limits.records);
+  if (!reader.ended_well()) return std::nullopt;
+  for (reports::StabilityRecord& record : limits.records) record.study = study;
+  return limits;
 }
 
 }  // namespace verification

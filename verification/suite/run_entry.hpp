@@ -16,4 +16,14 @@ std::string encode_run(const RunData& data);
 /// measured. Nothing for bytes that are no such run.
 std::optional<RunData> decode_run(const std::string& bytes, const Study& study, const PlannedRun& plan);
 
+/// What a case of a [stability] came to, and the time that it took.
+struct MeasuredLimits {
+  std::vector<reports::StabilityRecord> records;
+  double wall_s = 0;  ///< [s]
+};
+
+/// The same for limits of stability: the study's name is not among the bytes.
+std::string encode_limits(const MeasuredLimits& limits);
+std::optional<MeasuredLimits> decode_limits(const std::string& bytes, const std::string& study);
+
 }  // namespace verification

@@ -1,7 +1,9 @@
 #include "verification/suite/run_suite.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
+#include <limits>
 #include <mutex>
 
 #include "reports/atomic_file.hpp"
@@ -15,6 +17,7 @@
 #include "verification/study/scheme_matrix.hpp"
 #include "verification/study/scores.hpp"
 #include "verification/suite/collect.hpp"
+#include "verification/suite/run_entry.hpp"
 #include "verification/suite/schedule.hpp"
 
 namespace verification {
@@ -51,8 +54,9 @@ class SuiteRunner {
       data.study = &study;
       data.runs.resize(study.runs.size());
       data_.push_back(std::move(data));
-      remaining_.push_back(study.runs.size());
-      outcome_.runs += static_cast<long>(study.runs.size());
+      limits_.emplace_back(study.stability.cases.size());
+      remaining_.push_back(study.runs.size() + study.stability.cases.size());
+      outcome_.runs += static_cast<long>(remaining_.back());
     }
   }
 
@@ -61,7 +65,7 @@ class SuiteRunner {
     reports::ensure_directory(out_ / "scenes");
     reports::remove_tables(out_);
     const Schedule jobs = schedule(studies_);
-    const auto perform_job = [this](const Job& job) { perform(job); };
+    const auto perform_job = [this](const Job& job) { job.measures_limit ? measure(job) : perform(job); };
     std::exception_ptr stopped = perform_all(jobs.shared, threads, perform_job);
     if (!stopped) stopped = perform_all(jobs.alone, 1, perform_job);
 
@@ -101,6 +105,51 @@ class SuiteRunner {
     ++done_;
     if (listener_.run_ended) listener_.run_ended(done_, outcome_.runs, plan.run);
     if (--remaining_[job.study] == 0) conclude(data_[job.study]);
+  }
+
+  /// A case of a [stability].
+  void measure(const Job& job) {
+    throw_if_interrupted();
+    const Study& study = studies_[job.study];
+    const StabilityCase& one = study.stability.cases[job.run];
+    reports::TimingRecord timing;
+    timing.run = study.name + "." + one.name();
+    timing.particle_steps_per_s = std::numeric_limits<double>::quiet_NaN();
+    const auto kept = cache_.load(study.stability.content(one));
+    std::optional<MeasuredLimits> limits = kept ? decode_limits(*kept, study.name) : std::nullopt;
+    const bool from_cache = limits.has_value();
+    if (from_cache)
+      timing.source = reports::timing_from_cache;
+    else
+      limits = limits_of(study, one, timing.run);
+    timing.wall_s = limits->wall_s;
+
+    const std::scoped_lock lock(mutex_);
+    StudyData& data = data_[job.study];
+    limits_[job.study][job.run] = std::move(limits->records);
+    data.stability_timings.push_back(timing);
+    outcome_.from_cache += from_cache;
+    ++done_;
+    if (listener_.run_ended) listener_.run_ended(done_, outcome_.runs, timing.run);
+    if (--remaining_[job.study] > 0) return;
+    for (const auto& of_case : limits_[job.study])
+      data.stability.insert(data.stability.end(), of_case.begin(), of_case.end());
+    std::ranges::sort(data.stability_timings, {}, &reports::TimingRecord::run);
+    conclude(data);
+  }
+
+  MeasuredLimits limits_of(const Study& study, const StabilityCase& one, const std::string& run) {
+    const auto begin = std::chrono::steady_clock::now();
+    try {
+      MeasuredLimits limits{measure_case(study.name, study.stability, one), 0};
+      limits.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      cache_.save(study.stability.content(one), encode_limits(limits));
+      return limits;
+    } catch (const std::exception& error) {
+      const std::scoped_lock lock(mutex_);
+      outcome_.failures.push_back(run + ": " + error.what());
+      return {};
+    }
   }
 
   RunData simulate(const Study& study, const PlannedRun& plan) {
@@ -147,6 +196,7 @@ class SuiteRunner {
   RunCache& cache_;
   const SuiteListener& listener_;
   std::vector<StudyData> data_;
+  std::vector<std::vector<std::vector<reports::StabilityRecord>>> limits_;  // by study and case
   std::vector<std::size_t> remaining_;
   SuiteOutcome outcome_;
   std::mutex mutex_;

@@ -13,6 +13,9 @@ Schedule schedule(const std::vector<Study>& studies) {
     for (std::size_t r = 0; r < studies[s].runs.size(); ++r)
       (studies[s].repetitions > 0 ? schedule.alone : schedule.shared)
           .push_back({s, r, studies[s].runs[r].scene.particle_steps()});
+  for (std::size_t s = 0; s < studies.size(); ++s)
+    for (std::size_t c = 0; c < studies[s].stability.cases.size(); ++c)
+      schedule.shared.push_back({s, c, studies[s].stability.cost(studies[s].stability.cases[c]), true});
   std::ranges::stable_sort(schedule.shared, std::ranges::greater{}, &Job::cost);
   return schedule;
 }

@@ -9,10 +9,11 @@
 
 namespace verification {
 
-/// One simulation of a suite: run `run` of study `study`.
+/// One piece of a suite's work: run `run` of study `study`, or case `run` of its [stability].
 struct Job {
   std::size_t study, run;
   double cost;  ///< estimated, in arbitrary units
+  bool measures_limit = false;
 };
 
 /// Jobs in the order in which they are taken.
