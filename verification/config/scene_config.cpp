@@ -148,8 +148,6 @@ SceneConfig read_scene_config(TomlTable root) {
   config.scheme = read_scheme(root.table("scheme"));
   TomlTable time = root.table("time");
   config.start = time.has("start") ? time.positive("start") : 0;
-  if (config.start > 0 && config.flow->scene(config.discretisation).initial_density)
-    time.fail("start", "is for flows of uniform density: this one starts from its density at t = 0 only");
   if (config.start > 0 && !config.flow->has_exact())
     time.fail("start", "needs a flow with an exact solution");
   config.outputs = read_outputs(time);
@@ -161,16 +159,21 @@ SceneConfig read_scene_config(TomlTable root) {
     if (!(t > 0)) time.fail("reference_times", "must be positive");
   config.history_samples = time.integer("history_samples", 100);
   if (config.history_samples < 1) time.fail("history_samples", "must be at least 1");
-  config.scene = config.flow->scene(config.discretisation);
-  config.scene.seeding = seeding;
-  config.time_step = read_time_step(time, config.scheme, config.scene);
-  time.refuse_unknown_keys();
-  root.refuse_unknown_keys();
   try {
     config.scene = config.flow->scene(config.discretisation);
     config.scene.seeding = seeding;
     config.scene.start = config.start;
     config.scene.validate();
+  } catch (const mpm::SceneError& error) {
+    root.fail("scene", error.what());
+  }
+  if (config.start > 0 && config.scene.initial_density &&
+      !config.flow->exact({config.start})->density(Vec2::Zero(), config.start))
+    time.fail("start", "is for flows whose density is known at any time: this one starts at t = 0 only");
+  config.time_step = read_time_step(time, config.scheme, config.scene);
+  time.refuse_unknown_keys();
+  root.refuse_unknown_keys();
+  try {
     config.segments = mpm::plan_segments(config.time_step, config.scene, config.outputs, config.start);
   } catch (const mpm::SceneError& error) {
     root.fail(config.time_step.dt > 0 ? "time.dt" : "scene", error.what());

@@ -10,6 +10,7 @@
 #include "reports/atomic_file.hpp"
 #include "reports/content_hash.hpp"
 #include "reports/io_error.hpp"
+#include "solver/kernel/isa.hpp"
 #include "verification/suite/build_identity.hpp"
 #include "verification/suite/run_entry.hpp"
 
@@ -21,9 +22,9 @@ namespace fs = std::filesystem;
 // To be raised with any change of the bytes in a file; what is computed is part of the build's identity.
 constexpr const char* format = "mpm-verify run, format 1\n";
 
-/// The text that decides something, with what decides everything: the build.
+/// The text that decides something, with what decides everything: the build and its instruction set.
 std::string key_of(const std::string& content) {
-  return fmt::format("{}build {}\n{}\n", format, build_identity(), content);
+  return fmt::format("{}build {}\nkernels {}\n{}\n", format, build_identity(), mpm::current_isa(), content);
 }
 
 /// All that decides the result of a run, as text.
