@@ -63,6 +63,8 @@ std::string comparison_text(const std::vector<FileComparison>& comparison, bool 
     for (const Verdict v :
          {Verdict::Worse, Verdict::Better, Verdict::Changed, Verdict::New, Verdict::Missing})
       if (file.count(v) > 0) text += fmt::format(", {} {}", file.count(v), to_string(v));
+    if (unjudged > 0)
+      text += fmt::format(" ({} measured once: their noise is not known, so they are not judged)", unjudged);
     text += "\n\n";
     worse += file.count(Verdict::Worse);
   }

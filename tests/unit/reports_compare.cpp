@@ -76,6 +76,15 @@ TEST_CASE("times: beyond three spreads of both and five percent") {
   CHECK(verdict_on("run,wall_s,particle_steps_per_s\nr,1,1\n", timing_with("9", "0.01")) == Verdict::Changed);
 }
 
+TEST_CASE("times measured once are counted, not listed unless all is asked for") {
+  const ScratchDirectory scratch;
+  const auto result = compare_results(scratch.write("a.csv", timing_with("1", "nan")),
+                                      scratch.write("b.csv", timing_with("9", "nan")), {});
+  CHECK_THAT(comparison_text(result, false, false), contains("1 measured once: their noise is not known"));
+  CHECK(comparison_text(result, false, false).find("r, wall time") == std::string::npos);
+  CHECK_THAT(comparison_text(result, true, false), contains("r, wall time: 1 s -> 9 s (x 9)"));
+}
+
 TEST_CASE("benchmarks: the unit says which way is better") {
   CHECK(verdict_on(bench_with("100", "particle-steps/s"), bench_with("90", "particle-steps/s")) ==
         Verdict::Worse);
