@@ -30,4 +30,13 @@ std::array<double, 2> ShearWave::velocity(double x, double y, double t) const {
   return {w[0] + k[1] * wave, w[1] - k[0] * wave};
 }
 
+std::array<double, 2> ShearWave::path(double x, double y, double t) const {
+  const auto& k = parameters_.wave_vector;
+  const auto& w = parameters_.stream_velocity;
+  const double rate = decay_rate();
+  const double time = rate > 0.0 ? -std::expm1(-rate * t) / rate : t;  // integral of the decay
+  const double slide = parameters_.amplitude * std::sin(k[0] * x + k[1] * y) * time / std::hypot(k[0], k[1]);
+  return {x + w[0] * t + k[1] * slide, y + w[1] * t - k[0] * slide};
+}
+
 }  // namespace reference

@@ -23,6 +23,9 @@ class ShearWave {
 
   /// Velocity vector [m/s] at (x, y) [m] and t [s].
   [[nodiscard]] std::array<double, 2> velocity(double x, double y, double t) const;
+  /// Where the fluid that is at X [m] at t = 0 is at time t [m]. The phase k.(x - W t) of a fluid particle
+  /// never changes, so it moves with W and, along the wave's crest, by the time integral of its velocity.
+  [[nodiscard]] std::array<double, 2> path(double x, double y, double t) const;
   /// nu |k|^2 [1/s].
   [[nodiscard]] double decay_rate() const;
 

@@ -58,8 +58,8 @@ class TemporaryFile {
     }
   }
 
-  void commit() {
-    if (fsync(descriptor_) != 0) fail_to_write(target_, errno);
+  void commit(Durability durability) {
+    if (durability == Durability::Synced && fsync(descriptor_) != 0) fail_to_write(target_, errno);
     const int descriptor = descriptor_;
     descriptor_ = -1;
     if (close(descriptor) != 0) fail_to_write(target_, errno);
@@ -76,10 +76,23 @@ class TemporaryFile {
 
 }  // namespace
 
-void write_file(const std::filesystem::path& path, std::string_view content) {
+void write_file(const std::filesystem::path& path, std::string_view content, Durability durability) {
   TemporaryFile file(path);
   file.append(content);
-  file.commit();
+  file.commit(durability);
+}
+
+void keep_file(const std::filesystem::path& path, std::string_view content) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error) &&
+      std::filesystem::file_size(path, error) == content.size() && !error) {
+    try {
+      if (read_file(path) == content) return;
+    } catch (const IoError&) {
+      // Not readable: written anew, or refused with a message of its own.
+    }
+  }
+  write_file(path, content, Durability::Unsynced);
 }
 
 std::string read_file(const std::filesystem::path& path) {

@@ -73,10 +73,9 @@ constexpr const char* type_name() {
 
 }  // namespace csv
 
-/// Write a header and one line a record, whole or not at all. @throws IoError
+/// A header and one line a record.
 template <class Record, class... T>
-void write_csv(const std::filesystem::path& path, const std::tuple<Column<Record, T>...>& columns,
-               const std::vector<Record>& records) {
+std::string csv_text(const std::tuple<Column<Record, T>...>& columns, const std::vector<Record>& records) {
   std::string content;
   std::apply([&](const auto&... c) { ((content += c.name, content += ','), ...); }, columns);
   content.back() = '\n';
@@ -86,7 +85,14 @@ void write_csv(const std::filesystem::path& path, const std::tuple<Column<Record
         columns);
     content.back() = '\n';
   }
-  write_file(path, content);
+  return content;
+}
+
+/// Write csv_text(), whole or not at all. @throws IoError
+template <class Record, class... T>
+void write_csv(const std::filesystem::path& path, const std::tuple<Column<Record, T>...>& columns,
+               const std::vector<Record>& records, Durability durability = Durability::Synced) {
+  write_file(path, csv_text(columns, records), durability);
 }
 
 /// Read every record of a file. Columns may come in any order and there may be more of them.

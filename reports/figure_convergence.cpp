@@ -28,8 +28,8 @@ std::string axis_of(const FigureRecord& record, const Results& results) {
     if (level.study == record.study) axes.insert(level.axis);
   }
   if (record.across.empty() && axes.size() <= 1) return axes.empty() ? "space" : *axes.begin();
-  if (record.across == "space" || record.across == "time") return record.across;
-  throw IoError(fmt::format("figures.csv: figure '{}' needs across = space or time", record.figure));
+  if (record.across == "space" || record.across == "time" || record.across == "mach") return record.across;
+  throw IoError(fmt::format("figures.csv: figure '{}' needs across = space, time or mach", record.figure));
 }
 
 std::vector<Ladder> ladders_of(const FigureRecord& record, const Results& results, const std::string& axis) {
@@ -166,9 +166,12 @@ Figure convergence_figure(const FigureRecord& record, const Results& results) {
   for (const Ladder& ladder : ladders) variants.insert(ladder.variant);
 
   const std::string norm = norm_symbol(norm_of(record));
-  FigureScript script(record.title, axis == "space" ? "cell size h [m]" : "time step dt [s]",
-                      axis == "space" ? fmt::format("relative {} error [-]", norm)
-                                      : fmt::format("relative {} difference to next finer dt [-]", norm));
+  FigureScript script(record.title,
+                      axis == "space"  ? "cell size h [m]"
+                      : axis == "mach" ? "Mach number [-]"
+                                       : "time step dt [s]",
+                      axis != "time" ? fmt::format("relative {} error [-]", norm)
+                                     : fmt::format("relative {} difference to next finer dt [-]", norm));
   script.logarithmic_x();
   script.logarithmic_y();
   add_step_ticks(script, ladders);

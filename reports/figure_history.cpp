@@ -31,6 +31,7 @@ Curve evenly_in_time(const Curve& curve, std::size_t count, double phase) {
 }  // namespace
 
 Figure history_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results) {
+  const bool energy = record.kind == "energy";
   const std::vector<LabelledRun> runs = runs_of(record, results);
   std::vector<Curve> measured, exact;
   double largest = 0;
@@ -39,26 +40,27 @@ Figure history_figure(const std::filesystem::path& dir, const FigureRecord& reco
     Curve& line = exact.emplace_back();
     for (const HistoryRow& row : read_history(dir, run.run->run)) {
       if (!std::isfinite(row.t)) continue;
-      points.emplace_back(row.t, row.probe);
-      line.emplace_back(row.t, row.probe_exact);
-      for (const double value : {row.probe, row.probe_exact}) {
+      points.emplace_back(row.t, energy ? row.kinetic_energy : row.probe);
+      line.emplace_back(row.t, energy ? row.kinetic_energy_exact : row.probe_exact);
+      for (const double value : {points.back().second, line.back().second}) {
         if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
       }
     }
   }
-  const Unit speed = readable_length(largest);
+  const Unit unit = energy ? Unit{1, "J/m"} : readable_length(largest);
   // The probe of a channel is at mid-height; other scenes have theirs elsewhere.
   const bool channels = std::all_of(runs.begin(), runs.end(), [](const LabelledRun& run) {
     return run.run->scene.ends_with("poiseuille") || run.run->scene == "couette";
   });
   FigureScript script(
       record.title, "t [s]",
-      fmt::format("velocity at {} [{}/s]", channels ? "mid-height" : "the probe", speed.name));
+      energy ? "kinetic energy [J/m]"
+             : fmt::format("velocity at {} [{}/s]", channels ? "mid-height" : "the probe", unit.name));
   const bool one_line = coincide(exact, largest);
   bool any_exact = false;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     for (Curve* curve : {&measured[r], &exact[r]}) {
-      for (auto& point : *curve) point.second *= speed.factor;
+      for (auto& point : *curve) point.second *= unit.factor;
     }
     any_exact = any_exact || std::any_of(exact[r].begin(), exact[r].end(),
                                          [](const auto& p) { return std::isfinite(p.second); });

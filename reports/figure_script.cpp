@@ -164,4 +164,72 @@ std::string FigureScript::text(const std::string& name) const {
   return script;
 }
 
+std::string panels_text(const std::string& name, const std::string& title, std::vector<FigureScript>& panels,
+                        std::size_t columns) {
+  const FigureScript& first = panels.front();
+  const std::size_t rows = (panels.size() + columns - 1) / columns;
+  const std::size_t legend_columns = std::max<std::size_t>(1, 110 / (first.longest_legend_ + 8));
+  const std::size_t legend_rows = (first.legend_entries_ + legend_columns - 1) / legend_columns;
+  const std::string heading = wrap(title, 100);
+  const std::size_t title_rows =
+      1 + static_cast<std::size_t>(std::count(heading.begin(), heading.end(), '\n'));
+  const double legend_height = 24.0 * static_cast<double>(legend_rows) + 10,
+               title_height = 24.0 * static_cast<double>(title_rows) + 34;
+  const double width = 1120, height = 330.0 * static_cast<double>(rows) + legend_height + title_height + 50;
+
+  std::string script = fmt::format(
+      "# Draws {0}.svg and {0}.png here: gnuplot {0}.gp\n"
+      "if (!exists('part')) part = ''\n"
+      "set encoding utf8\n"
+      "set border 3 lw 1 lc rgb '#444444'\n"
+      "set tics nomirror out\n"
+      "set grid back lw 0.6 dt solid lc rgb '#cccccc'\n",
+      name);
+  std::string drawing;
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    FigureScript& panel = panels[p];
+    const std::string mark = fmt::format("$panel_{}_", p);
+    const auto named = [&](std::string text) {
+      for (std::size_t at = 0; (at = text.find("$curve_", at)) != text.npos; at += mark.size())
+        text.replace(at, 7, mark);
+      return text;
+    };
+    script += named(panel.data_);
+    drawing +=
+        fmt::format("set title ({}) noenhanced\nset xlabel ({}) noenhanced\nset ylabel ({}) noenhanced\n",
+                    gnuplot_text(panel.title_), gnuplot_text(panel.x_label_),
+                    gnuplot_text(p % columns == 0 ? panel.y_label_ : ""));
+    drawing += p == 0 ? fmt::format(
+                            "set key at screen 0.5,{:.4f} center bottom vertical maxrows {} Left "
+                            "reverse samplen 2 spacing 1.15 width 2\n",
+                            6 / height, legend_rows)
+                      : "unset key\n";
+    if (panel.log_x_) drawing += "set logscale x\n";
+    if (panel.log_y_) drawing += "set logscale y\nset format y '10^{%T}'\n";
+    drawing += panel.statements_ + "plot ";
+    for (std::size_t i = 0; i < panel.plots_.size(); ++i)
+      drawing += (i ? ", \\\n     " : "") + named(panel.plots_[i]);
+    drawing += "\n";
+  }
+  const std::string layout = fmt::format(
+      "set multiplot layout {},{} title {} noenhanced margins screen 0.075,0.985,{:.4f},{:.4f} spacing "
+      "screen "
+      "0.055,{:.4f}\n",
+      rows, columns, gnuplot_text(heading), (legend_height + 58) / height, 1 - title_height / height,
+      95 / height);
+  script += fmt::format(
+      "set terminal svg size {:.0f},{:.0f} enhanced font 'Helvetica,Arial,sans-serif,14' background "
+      "'#ffffff'\n"
+      "set output '{}.svg'.part\nmark_size = 0.6\n",
+      width, height, name);
+  script += layout + drawing + "unset multiplot\n";
+  const double scale = 1.5;
+  script += fmt::format(
+      "set terminal pngcairo size {:.0f},{:.0f} enhanced font 'sans,10' fontscale {} linewidth {} pointscale "
+      "{} "
+      "background '#ffffff'\nset output '{}.png'.part\nmark_size = 1\n",
+      scale * width, scale * height, scale, scale, scale, name);
+  return script + layout + drawing + "unset multiplot\nunset output\n";
+}
+
 }  // namespace reports

@@ -55,6 +55,8 @@ class FigureScript {
   std::string text(const std::string& name) const;
 
  private:
+  friend std::string panels_text(const std::string&, const std::string&, std::vector<FigureScript>&,
+                                 std::size_t);
   std::string add_data(const Curve& curve);
   void add_plot(const std::string& data, const std::string& style, const std::string& legend);
 
@@ -63,5 +65,10 @@ class FigureScript {
   std::size_t legend_entries_ = 0, longest_legend_ = 0, data_blocks_ = 0, drawn_curves_ = 0;
   bool log_x_ = false, log_y_ = false;
 };
+
+/// Like FigureScript::text() for several diagrams of one size under one title, `columns` side by side, with
+/// the legend of the first for all of them.
+std::string panels_text(const std::string& name, const std::string& title, std::vector<FigureScript>& panels,
+                        std::size_t columns);
 
 }  // namespace reports

@@ -113,18 +113,22 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
   Figure figure;
   if (record.kind == "profiles") {
     figure = profiles_figure(dir, record, results);
-  } else if (record.kind == "history") {
+  } else if (record.kind == "history" || record.kind == "energy") {
     figure = history_figure(dir, record, results);
   } else if (record.kind == "shear-rate" || record.kind == "viscosity") {
     figure = shear_figure(dir, record, results);
+  } else if (record.kind == "pressure") {
+    figure = pressure_figure(dir, record, results);
   } else if (record.kind == "convergence") {
     figure = convergence_figure(record, results);
   } else if (record.kind == "work-precision") {
     figure = work_precision_figure(record, results);
+  } else if (record.kind == "stability-map") {
+    figure = stability_figure(record, results);
   } else {
     throw IoError(
         fmt::format("figures.csv: figure '{}' is of unknown kind '{}'; known are profiles, history, "
-                    "convergence, work-precision, shear-rate, viscosity",
+                    "energy, convergence, work-precision, shear-rate, viscosity, pressure, stability-map",
                     record.figure, record.kind));
   }
   figure.name = record.figure;

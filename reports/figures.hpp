@@ -24,12 +24,18 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
 
 // One function a kind; each fills title, caption and script.
 Figure profiles_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
+/// Kinds "history" (velocity at the probe) and "energy" (kinetic energy of the whole scene).
 Figure history_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
 /// Kinds "shear-rate" and "viscosity": across a channel at one time, one colour a run (the paper's Figs 4, 5,
 /// 9, 10).
 Figure shear_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
+
+/// Kind "pressure": pressure of the particles across the flow at one time, one colour a run.
+Figure pressure_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
 Figure convergence_figure(const FigureRecord& record, const Results& results);
 Figure work_precision_figure(const FigureRecord& record, const Results& results);
+/// Stable regions in the plane of r = nu dt/h^2 and c dt/h: predicted boundaries, measured points.
+Figure stability_figure(const FigureRecord& record, const Results& results);
 
 // What the kinds share.
 

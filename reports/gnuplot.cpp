@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "reports/atomic_file.hpp"
+#include "reports/figure_cache.hpp"
 #include "reports/io_error.hpp"
 
 namespace reports {
@@ -127,7 +128,7 @@ std::string gnuplot_text(std::string_view text) {
   return quoted + "\"";
 }
 
-Gnuplot::Gnuplot() {
+Gnuplot::Gnuplot(fs::path cache) : cache_(std::move(cache)) {
   const char* named = std::getenv("MPM_GNUPLOT");
   wanted_ = named && *named ? named : "gnuplot";
   program_ = find_program(wanted_);
@@ -141,10 +142,12 @@ std::string Gnuplot::draw(const fs::path& directory, const std::string& name,
   if (holds_exactly(script_file, script) && fs::exists(images[0], error) && fs::exists(images[1], error))
     return "";
 
+  const FigureCache cache(cache_, program_);
   // Images go first, so that an interruption cannot leave them beside a script that they were not drawn from.
   for (const fs::path& image : images) fs::remove(image, error);
   write_file(script_file, script);
   if (!available()) return fmt::format("{} not found", wanted_);
+  if (cache.fetch(script, images[0], images[1])) return "";
 
   const Outcome outcome = run_program(program_, directory, {"-e", "part = '.part'", name + ".gp"});
   bool drawn = outcome.status == 0;
@@ -158,7 +161,10 @@ std::string Gnuplot::draw(const fs::path& directory, const std::string& name,
     }
     fs::remove(part, error);
   }
-  if (drawn) return "";
+  if (drawn) {
+    cache.keep(script, images[0], images[1]);
+    return "";
+  }
   for (const fs::path& image : images) fs::remove(image, error);
   return fmt::format("{} failed on {} (status {}): {}", wanted_, script_file.string(), outcome.status,
                      outcome.complaint.empty() ? "it wrote no image" : one_line(outcome.complaint));

@@ -13,7 +13,8 @@ std::string gnuplot_text(std::string_view text);
 /// The gnuplot program: the one that the environment variable MPM_GNUPLOT names, else `gnuplot` on PATH.
 class Gnuplot {
  public:
-  Gnuplot();
+  /// `cache`: see FigureOptions::cache.
+  explicit Gnuplot(std::filesystem::path cache = {});
 
   bool available() const { return !program_.empty(); }
   /// What was looked for, for messages.
@@ -28,6 +29,7 @@ class Gnuplot {
 
  private:
   std::string wanted_, program_;
+  std::filesystem::path cache_;
 };
 
 }  // namespace reports

@@ -31,8 +31,7 @@ std::string figure_element(const std::filesystem::path& dir, const ReportFigure&
 }
 
 std::string rate_table(const RateTable& table) {
-  const bool in_time = table.axis == "time";
-  std::string head = fmt::format("<th class=\"n\">{}</th>", in_time ? "dt [s]" : "h [m]");
+  std::string head = fmt::format("<th class=\"n\">{}</th>", step_symbol(table.axis));
   for (const double t : table.times) {
     head += fmt::format("<th class=\"n\">t = {} s</th><th class=\"n\">rate</th>", number(t));
   }
@@ -129,20 +128,29 @@ std::string html_study(const std::filesystem::path& dir, const ReportData& data,
     section += fmt::format("<p class=\"faint\">Left out of the model: {}.</p>\n", html_text(study.left_out));
   section += fmt::format("<p class=\"faint\">Study <code>{}</code>{}</p>\n", html_text(study.study),
                          study.suite.empty() ? "" : ", suite " + html_text(study.suite));
-  const auto checks = checks_of(data.results, study.study);
+  auto checks = checks_of(data.results, study.study);
+  // Outcomes that hold stand in the scoreboard.
+  const auto shown_above = std::erase_if(
+      checks, [](const CheckRecord* check) { return check->unit == outcome_unit && holds(*check); });
+  if (shown_above > 0)
+    section +=
+        fmt::format("<p>{} schemes ended as expected: see the <a href=\"#board-{}\">scoreboard</a>.</p>\n",
+                    shown_above, html_anchor(study.study));
   if (!checks.empty()) section += "<h3>Checks</h3>\n" + html_checks(checks, false);
   for (const ReportFigure& figure : data.figures) {
     if (figure.figure.study == study.study) section += figure_element(dir, figure);
   }
   const auto tables = rate_tables(data.results, study.study);
-  for (const char* axis : {"space", "time"}) {
+  for (const char* axis : {"space", "time", "mach"}) {
     std::string text;
     for (const RateTable& table : tables) {
       if (table.axis == axis) text += rate_table(table);
     }
     if (text.empty()) continue;
     section += axis == std::string("space") ? "<h3>Errors and rates in space</h3>\n"
-                                            : "<h3>Differences to the next finer time step, and rates</h3>\n";
+               : axis == std::string("mach")
+                   ? "<h3>Errors and rates in the Mach number</h3>\n"
+                   : "<h3>Differences to the next finer time step, and rates</h3>\n";
     section += text + "<p class=\"faint\">Levels in italics were left out of the fit.</p>\n";
   }
   const auto orders = orders_of(data.results, study.study);

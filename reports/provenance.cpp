@@ -53,7 +53,7 @@ std::string utc_now() {
   return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
-void write_provenance(const std::filesystem::path& dir, const Provenance& provenance) {
+void write_provenance(const std::filesystem::path& dir, const Provenance& provenance, Durability durability) {
   const nlohmann::ordered_json json = {
       {"version", provenance.build.version},
       {"commit", provenance.build.commit},
@@ -70,7 +70,7 @@ void write_provenance(const std::filesystem::path& dir, const Provenance& proven
   };
   // A command line may hold any bytes; what is no UTF-8 is replaced rather than refused.
   write_file(dir / "provenance.json",
-             json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+             json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n", durability);
 }
 
 std::optional<Provenance> read_provenance(const std::filesystem::path& dir) {

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "reports/atomic_file.hpp"
+
 namespace reports {
 
 /// What the program was built from; the caller knows.
@@ -34,7 +36,8 @@ MachineFacts this_machine();
 std::string utc_now();
 
 /// provenance.json of `dir`. @throws IoError
-void write_provenance(const std::filesystem::path& dir, const Provenance& provenance);
+void write_provenance(const std::filesystem::path& dir, const Provenance& provenance,
+                      Durability durability = Durability::Synced);
 
 /// provenance.json of `dir`; none if there is no such file. @throws IoError if it is there and not what it
 /// should be.

@@ -23,6 +23,8 @@ struct RunRecord {
   double dt = 0;       ///< nominal time step [s]
   long steps = 0;      ///< steps taken
   std::string status;  ///< "completed" or "diverged at t = ... s: why"
+  /// When particles are put back on their lattice: "never", "every 25 steps", ...
+  std::string reset = "never";
 };
 
 /// errors.csv: norms of (numerical - exact) velocity, relative to the velocity scale of the flow [-].
@@ -36,11 +38,11 @@ struct ErrorRecord {
 /// levels.csv: one point of one refinement ladder, the data behind one row of orders.csv.
 struct LevelRecord {
   std::string study, variant;
-  std::string axis;  ///< "space" or "time"
+  std::string axis;  ///< "space", "time" or "mach"
   std::string location, norm;
   double t = 0;     ///< [s]
-  double step = 0;  ///< refined quantity: cell size h [m] for "space", dt [s] for "time"
-  /// "space": relative error norm; "time": relative norm of the difference to the next finer dt
+  double step = 0;  ///< refined quantity: cell size h [m], dt [s], or the Mach number [-]
+  /// "space", "mach": relative error norm; "time": relative norm of the difference to the next finer dt
   double value = 0;
   bool used = true;  ///< false when dropped from the fit (at the round-off floor, or not finite)
 };
@@ -71,10 +73,17 @@ struct CheckRecord {
 };
 
 /// timing.csv: the only file that may differ between two runs of the same build.
+inline constexpr const char* timing_measured = "measured";  ///< in this run of the suite
+inline constexpr const char* timing_from_cache =
+    "cache";  ///< when the run was simulated, in an earlier suite
 struct TimingRecord {
   std::string run;
-  double wall_s = 0;                ///< [s]
+  double wall_s = 0;                ///< simulation alone, the fastest repetition [s]
   double particle_steps_per_s = 0;  ///< [1/s]
+  long repetitions = 1;             ///< timed, after a warm-up where there is more than one
+  /// (median - fastest)/fastest of the repetitions [-]; NaN for a single one, whose noise is not known
+  double spread = std::numeric_limits<double>::quiet_NaN();
+  std::string source = timing_measured;
 };
 
 /// profiles/<run>.csv: velocity at points. location: "grid", "particles", or "exact" (a fine line for
@@ -95,6 +104,7 @@ struct HistoryRow {
   double momentum_x = 0, momentum_y = 0;  ///< total momentum per unit depth [kg/s]
   double impulse_x = 0, impulse_y = 0;    ///< time integral of body and wall forces per unit depth [kg/s]
   double kinetic_energy = 0;              ///< of the particles per unit depth [J/m]
+  double kinetic_energy_exact = std::numeric_limits<double>::quiet_NaN();  ///< of the exact field [J/m]
 };
 
 /// profiles/<run>.shear.csv: shear rate and viscosity across a channel. location: "cells" (grid field at cell
@@ -105,6 +115,16 @@ struct ShearRow {
   double place = 0;            ///< distance from the resting plate [m]
   double shear_rate = 0;       ///< |du/dy| [1/s]
   double viscosity_ratio = 0;  ///< mu/mu_0 [-]
+};
+
+/// profiles/<run>.state.csv: density and pressure where the flow has an exact density. location: "particles"
+/// or "exact" (a fine line, numerical columns NaN).
+struct StateRow {
+  double t = 0;  ///< [s]
+  std::string location;
+  double x = 0, y = 0;                      ///< [m]
+  double density = 0, density_exact = 0;    ///< [kg/m3]
+  double pressure = 0, pressure_exact = 0;  ///< [Pa], by the equation of state
 };
 
 /// claims.csv: somebody's statement, and what became of it here.
@@ -130,19 +150,66 @@ struct MatrixRecord {
   std::string reason;
 };
 
+/// Unit of checks that compare what became of a scheme with what was expected.
+inline constexpr const char* outcome_unit = "(0 survived, 1 degraded, 2 diverged)";
+
+/// scoreboard.csv: what became of a scheme on a hard case.
+struct ScoreRecord {
+  std::string study;
+  std::string hard_case;  ///< short name, heads a column
+  std::string scheme;     ///< the study's variant: basis_transfer_stepping, or a name of its own
+  std::string basis, transfer, stepping;
+  std::string outcome;      ///< "survived", "degraded", "diverged"; "failed" when it could not be simulated
+  std::string expected;     ///< the outcome that the study declares
+  std::string verdict;      ///< "pass" when they agree, else "fail"
+  double t_diverged = 0;    ///< time from the start at which a diverged run went wrong [s]; NaN for others
+  double error = 0;         ///< relative L2 error of velocity at the last output; NaN if not reached
+  double energy_ratio = 0;  ///< kinetic energy of the particles at the last output over the exact solution's
+  double degraded_above = 0;                  ///< error beyond which a run is degraded
+  double energy_lower = 0, energy_upper = 0;  ///< energy ratios outside are degraded
+  std::string location;                       ///< of the error: "grid" or "particles"
+  std::string status;                         ///< of the run
+  std::string reason;                         ///< of the expectation
+  std::string thresholds;                     ///< reason of the thresholds
+};
+
+/// stability.csv: the largest stable time step of one scheme along one ray from the origin of the (r, CFL)
+/// plane, r = nu dt/h^2 and CFL = c dt/h, on a periodic lattice of square cells.
+struct StabilityRecord {
+  std::string study, basis, transfer, stepping;
+  std::string waves;    ///< "shear", "longitudinal" (both along one axis), "plane"
+  std::string motion;   ///< "rest": particles in their seats; "offset", "streaming", "streaming-x": at the
+                        ///< worst offset
+  std::string lattice;  ///< particles a cell and how they are seated, e.g. "2 x 2 even"
+  std::string kind;     ///< "measured", or "boundary": predicted only, a point of the line in a map
+  double r_predicted = 0, cfl_predicted = 0;  ///< spectral radius one; NaN when nothing grows on the ray
+  double r_measured = 0, cfl_measured = 0;    ///< by the solver; NaN when nothing grew
+  double r_tested = 0, cfl_tested = 0;        ///< the largest step tried on the ray
+  double theta_x = 0, theta_y = 0;            ///< wave that grows first [rad a cell]
+  double offset_x = 0, offset_y = 0;          ///< of the particles from their seats then [cells]
+  long steps = 0;                             ///< of one measuring run
+  std::string crossing;  ///< streaming at 0.97 of the predicted limit through a whole period of offsets:
+                         ///< "stable", "unstable"; "" where not tried
+};
+
 /// figures.csv: what to draw from the files above. Lists are joined by ';'.
 struct FigureRecord {
   std::string figure;  ///< file stem, unique
   std::string study;
-  std::string kind;    ///< "profiles", "history", "convergence", "work-precision", "shear-rate", "viscosity"
-  std::string title;   ///< the claim that the figure shows
-  std::string runs;    ///< runs to draw (profiles, history, work-precision); "" = all of the study
-  std::string labels;  ///< a legend entry for each run; "" = run names
-  std::string across;  ///< coordinate of profiles: "x" or "y"
-  std::string component;                                ///< velocity component of profiles: "u" or "v"
-  std::string location;                                 ///< "grid", "particles", or "grid;particles"
-  std::string norm;                                     ///< convergence, work-precision: "l1", "l2", "linf"
-  double t = std::numeric_limits<double>::quiet_NaN();  ///< shear-rate, viscosity: the time shown [s]
+  /// "profiles", "history", "energy", "convergence", "work-precision", "shear-rate", "viscosity", "pressure",
+  /// "stability-map"
+  std::string kind;
+  std::string title;  ///< the claim that the figure shows
+  /// Runs to draw (profiles, history, work-precision); "" = all of the study. stability-map: schemes, as
+  /// basis_transfer_stepping.
+  std::string runs;
+  std::string labels;     ///< a legend entry for each run; "" = run names
+  std::string across;     ///< profiles: "x" or "y"; work-precision: "wall" or "particle-steps";
+                          ///< stability-map: waves
+  std::string component;  ///< velocity component of profiles: "u" or "v"
+  std::string location;   ///< "grid", "particles", or "grid;particles"; stability-map: motions
+  std::string norm;       ///< convergence, work-precision: "l1", "l2", "linf"
+  double t = std::numeric_limits<double>::quiet_NaN();  ///< shear-rate, viscosity, pressure: the time [s]
 };
 
 /// The content of one result directory, profiles and histories excepted (they are read run by run).
@@ -157,6 +224,8 @@ struct Results {
   std::vector<FigureRecord> figures;
   std::vector<ClaimRecord> claims;
   std::vector<MatrixRecord> matrix;
+  std::vector<ScoreRecord> scores;
+  std::vector<StabilityRecord> stability;
 };
 
 }  // namespace reports

@@ -2,6 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
 #include "reports/atomic_file.hpp"
 #include "reports/gnuplot.hpp"
 #include "reports/junit.hpp"
@@ -13,23 +19,51 @@
 namespace reports {
 namespace {
 
-void draw_figures(const std::filesystem::path& dir, ReportData& data) {
-  if (data.results.figures.empty()) return;
+/// Calls body(i) for every i below count on `jobs` threads. The first exception ends it and is thrown.
+void for_each_index(std::size_t count, int jobs, const std::function<void(std::size_t)>& body) {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr cause;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        body(i);
+      } catch (...) {
+        const std::scoped_lock lock(mutex);
+        if (!cause) cause = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> pool;
+    for (int i = 1; i < jobs; ++i) pool.emplace_back(work);
+    work();
+  }
+  if (cause) std::rethrow_exception(cause);
+}
+
+void draw_figures(const std::filesystem::path& dir, ReportData& data, const FigureOptions& options) {
+  const std::vector<FigureRecord>& records = data.results.figures;
+  if (records.empty()) return;
   const std::filesystem::path directory = dir / "figures";
   ensure_directory(directory);
-  const Gnuplot gnuplot;
+  const Gnuplot gnuplot(options.cache);
+  data.figures.resize(records.size());
+  std::vector<std::string> problems(records.size());
+  for_each_index(records.size(), options.jobs, [&](std::size_t i) {
+    ReportFigure& shown = data.figures[i];
+    shown.figure = build_figure(dir, records[i], data.results);
+    if (shown.figure.script.empty()) return;
+    problems[i] = gnuplot.draw(directory, records[i].figure, shown.figure.script);
+    shown.drawn = problems[i].empty();
+  });
   std::size_t lost = 0;
   std::string complaint;
-  for (const FigureRecord& record : data.results.figures) {
-    ReportFigure shown{build_figure(dir, record, data.results), false};
-    if (shown.figure.script.empty()) {
-      data.warnings.push_back(fmt::format("figure {}: there is nothing finite to draw", record.figure));
-    } else {
-      const std::string problem = gnuplot.draw(directory, record.figure, shown.figure.script);
-      shown.drawn = problem.empty();
-      if (!shown.drawn && lost++ == 0) complaint = problem;
-    }
-    data.figures.push_back(std::move(shown));
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (data.figures[i].figure.script.empty())
+      data.warnings.push_back(fmt::format("figure {}: there is nothing finite to draw", records[i].figure));
+    if (!problems[i].empty() && lost++ == 0) complaint = problems[i];
   }
   if (lost == 0) return;
   data.warnings.push_back(
@@ -53,20 +87,20 @@ void warn_of_contradictions(ReportData& data) {
 
 }  // namespace
 
-std::vector<std::string> write_figures(const std::filesystem::path& dir) {
+std::vector<std::string> write_figures(const std::filesystem::path& dir, const FigureOptions& options) {
   ReportData data;
   data.results = read_results(dir);
-  draw_figures(dir, data);
+  draw_figures(dir, data, options);
   return data.warnings;
 }
 
-ReportOutcome write_report(const std::filesystem::path& dir) {
+ReportOutcome write_report(const std::filesystem::path& dir, const FigureOptions& options) {
   ReportData data;
   data.results = read_results(dir);
   data.provenance = read_provenance(dir);
   warn_of_contradictions(data);
   if (!data.provenance) data.warnings.push_back("no provenance.json: what made these results is not known");
-  draw_figures(dir, data);
+  draw_figures(dir, data, options);
 
   write_file(dir / "report.md", markdown_report(data));
   write_file(dir / "report.html", html_report(dir, data));

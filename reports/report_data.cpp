@@ -118,6 +118,10 @@ void fill(RateTable& table, const std::vector<const LevelRecord*>& levels) {
 
 }  // namespace
 
+std::string step_symbol(const std::string& axis) {
+  return axis == "time" ? "dt [s]" : axis == "mach" ? "Ma" : "h [m]";
+}
+
 std::vector<RateTable> rate_tables(const Results& results, const std::string& study) {
   std::vector<RateTable> tables;
   std::vector<std::vector<const LevelRecord*>> levels;

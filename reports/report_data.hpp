@@ -55,6 +55,9 @@ struct RateTable {
 /// The tables of a study: those in the L2 norm, or, where a ladder has no L2 norm, in the norms that it has.
 std::vector<RateTable> rate_tables(const Results& results, const std::string& study);
 
+/// What a ladder refines, as a table names it: "h [m]", "dt [s]", "Ma".
+std::string step_symbol(const std::string& axis);
+
 /// Numbers for people, not for programs: `digits` significant digits; "nan" stays visible.
 std::string number(double value, int digits = 4);
 /// The rate of a table: three decimals, "-" for NaN.

@@ -6,7 +6,11 @@
 
 #include "reports/html_matrix.hpp"
 #include "reports/html_page.hpp"
+#include "reports/html_scoreboard.hpp"
+#include "reports/html_stability.hpp"
 #include "reports/html_study.hpp"
+#include "reports/scoreboard.hpp"
+#include "reports/work_precision.hpp"
 
 namespace reports {
 namespace {
@@ -33,7 +37,11 @@ std::string warning_list(const ReportData& data) {
 std::string contents(const ReportData& data) {
   std::string text = "<nav aria-label=\"Contents\">\n<b>Contents</b>\n<ul>\n";
   if (!data.results.matrix.empty()) text += "<li><a href=\"#matrix\">Order matrix</a></li>\n";
+  if (!data.results.scores.empty()) text += "<li><a href=\"#scoreboard\">Stability scoreboard</a></li>\n";
+  if (!data.results.stability.empty()) text += "<li><a href=\"#stability\">Stability limits</a></li>\n";
   if (!data.results.claims.empty()) text += "<li><a href=\"#claims\">Claims judged</a></li>\n";
+  if (!cheapest_runs(data.results).empty())
+    text += "<li><a href=\"#cheapest\">Cheapest way to an error</a></li>\n";
   for (const StudyRecord& study : studies_of(data.results)) {
     std::size_t held = 0;
     const auto checks = checks_of(data.results, study.study);
@@ -77,14 +85,19 @@ std::string run_section(const Results& results) {
       if (std::isfinite(timing.wall_s)) wall = number(timing.wall_s, 3);
       if (std::isfinite(timing.particle_steps_per_s)) speed = number(timing.particle_steps_per_s / 1e6, 3);
     }
+    const std::string scheme = run.stepping + (run.reset == "never" ? "" : ", reset " + run.reset);
     rows += fmt::format(
         "<tr><td class=\"w\">{}</td><td>{}, {}</td><td>{}, {}, {}</td><td class=\"n\">{}</td><td "
         "class=\"n\">{}</td>"
         "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
         "class=\"{}\">{}</td></tr>\n",
         html_text(run.run), html_text(run.scene), html_text(run.fluid), html_text(run.basis),
-        html_text(run.transfer), html_text(run.stepping), run.cells, run.particles, number(run.dt), run.steps,
-        wall, speed, completed(run) ? "pass" : "fail", html_text(run.status));
+        html_text(run.transfer), html_text(scheme), run.cells, run.particles, number(run.dt), run.steps, wall,
+        speed,
+        completed(run)                      ? "pass"
+        : expected_to_diverge(results, run) ? "faint"
+                                            : "fail",
+        html_text(run.status));
   }
   return "<section>\n<h2 id=\"runs\">Runs and timing</h2>\n" +
          html_table(
@@ -133,7 +146,10 @@ std::string html_report(const std::filesystem::path& dir, const ReportData& data
   body += warning_list(data);
   body += contents(data);
   body += claim_section(data.results.claims);
+  body += html_scoreboard(data.results.scores);
   body += html_matrix(data.results.matrix);
+  body += html_cheapest(data.results);
+  body += html_stability(data.results.stability);
   for (const StudyRecord& study : studies_of(data.results)) body += html_study(dir, data, study);
   body += run_section(data.results);
   body += provenance_section(data.provenance);

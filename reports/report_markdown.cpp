@@ -6,6 +6,9 @@
 #include <iterator>
 
 #include "reports/html_matrix.hpp"
+#include "reports/html_stability.hpp"
+#include "reports/scoreboard.hpp"
+#include "reports/work_precision.hpp"
 
 namespace reports {
 namespace {
@@ -39,18 +42,23 @@ std::string check_section(const Results& results) {
     text += fmt::format("\n### {}\n\n", markdown_text(study.title.empty() ? study.study : study.title));
     if (!study.claim.empty()) text += markdown_text(study.claim) + "\n\n";
     if (!study.left_out.empty()) text += "Left out of the model: " + markdown_text(study.left_out) + ".\n\n";
-    text += "| verdict | check | observed | bounds | reason for the bounds |\n|---|---|---|---|---|\n";
+    std::string rows;
     std::size_t shown = 0, hidden = 0;
     for (const CheckRecord* check : checks) {
-      if (!holds(*check) || shown < most_rows) {
-        text += check_row(*check, false);
+      // What the scoreboard counts already is shown where it fails.
+      if (!holds(*check) || (shown < most_rows && check->unit != outcome_unit)) {
+        rows += check_row(*check, false);
         ++shown;
       } else {
         ++hidden;
       }
     }
+    if (shown > 0)
+      text +=
+          "| verdict | check | observed | bounds | reason for the bounds |\n|---|---|---|---|---|\n" + rows;
     if (hidden > 0)
-      text += fmt::format("\n{} more checks of this study hold: see checks.csv or report.html.\n", hidden);
+      text += fmt::format("\n{}{} checks of this study hold: see checks.csv or report.html.\n", hidden,
+                          shown > 0 ? " more" : "");
   }
   return text;
 }
@@ -70,9 +78,9 @@ std::string claim_section(const std::vector<ClaimRecord>& claims) {
 }
 
 std::string rate_table(const RateTable& table) {
-  std::string text = fmt::format("\n{}: {}, {}, norm {}\n\n| {} |", markdown_text(table.variant), table.axis,
-                                 markdown_text(table.location), norm_symbol(table.norm),
-                                 table.axis == "time" ? "dt [s]" : "h [m]");
+  std::string text =
+      fmt::format("\n{}: {}, {}, norm {}\n\n| {} |", markdown_text(table.variant), table.axis,
+                  markdown_text(table.location), norm_symbol(table.norm), step_symbol(table.axis));
   std::string rule = "\n|---|";
   for (const double t : table.times) {
     text += fmt::format(" {}, t = {} s | rate |", table.axis == "time" ? "difference" : "error", number(t));
@@ -124,7 +132,7 @@ std::string order_section(const Results& results) {
 std::string diverged_section(const Results& results) {
   std::string rows;
   for (const RunRecord& run : results.runs) {
-    if (completed(run)) continue;
+    if (completed(run) || expected_to_diverge(results, run)) continue;
     rows += fmt::format("| {} | {} | {} |\n", markdown_text(run.run), markdown_text(run.study),
                         markdown_text(run.status));
   }
@@ -177,7 +185,10 @@ std::string markdown_report(const ReportData& data) {
   if (!data.warnings.empty()) text += "\n## Warnings\n\n";
   for (const std::string& warning : data.warnings) text += "- " + markdown_text(warning) + "\n";
   text += claim_section(data.results.claims);
+  text += markdown_scoreboard(data.results.scores);
   text += markdown_matrix(data.results.matrix);
+  text += markdown_cheapest(data.results);
+  text += markdown_stability(data.results.stability);
   text += check_section(data.results);
   text += order_section(data.results);
   text += diverged_section(data.results);

@@ -26,6 +26,7 @@ constexpr auto run_columns = std::make_tuple(    //
     column("basis", &RunRecord::basis),          //
     column("transfer", &RunRecord::transfer),    //
     column("stepping", &RunRecord::stepping),    //
+    column("reset", &RunRecord::reset),          //
     column("cells", &RunRecord::cells),          //
     column("particles", &RunRecord::particles),  //
     column("dt", &RunRecord::dt),                //
@@ -81,10 +82,13 @@ constexpr auto check_columns = std::make_tuple(  //
     column("verdict", &CheckRecord::verdict),    //
     column("reason", &CheckRecord::reason));
 
-constexpr auto timing_columns = std::make_tuple(  //
-    column("run", &TimingRecord::run),            //
-    column("wall_s", &TimingRecord::wall_s),      //
-    column("particle_steps_per_s", &TimingRecord::particle_steps_per_s));
+constexpr auto timing_columns = std::make_tuple(                          //
+    column("run", &TimingRecord::run),                                    //
+    column("wall_s", &TimingRecord::wall_s),                              //
+    column("particle_steps_per_s", &TimingRecord::particle_steps_per_s),  //
+    column("repetitions", &TimingRecord::repetitions),                    //
+    column("spread", &TimingRecord::spread),                              //
+    column("source", &TimingRecord::source));
 
 constexpr auto figure_columns = std::make_tuple(    //
     column("figure", &FigureRecord::figure),        //
@@ -124,12 +128,65 @@ constexpr auto matrix_columns = std::make_tuple(              //
     column("verdict", &MatrixRecord::verdict),                //
     column("reason", &MatrixRecord::reason));
 
+constexpr auto score_columns = std::make_tuple(              //
+    column("study", &ScoreRecord::study),                    //
+    column("case", &ScoreRecord::hard_case),                 //
+    column("scheme", &ScoreRecord::scheme),                  //
+    column("basis", &ScoreRecord::basis),                    //
+    column("transfer", &ScoreRecord::transfer),              //
+    column("stepping", &ScoreRecord::stepping),              //
+    column("outcome", &ScoreRecord::outcome),                //
+    column("expected", &ScoreRecord::expected),              //
+    column("verdict", &ScoreRecord::verdict),                //
+    column("t_diverged", &ScoreRecord::t_diverged),          //
+    column("error", &ScoreRecord::error),                    //
+    column("energy_ratio", &ScoreRecord::energy_ratio),      //
+    column("degraded_above", &ScoreRecord::degraded_above),  //
+    column("energy_lower", &ScoreRecord::energy_lower),      //
+    column("energy_upper", &ScoreRecord::energy_upper),      //
+    column("location", &ScoreRecord::location),              //
+    column("status", &ScoreRecord::status),                  //
+    column("reason", &ScoreRecord::reason),                  //
+    column("thresholds", &ScoreRecord::thresholds));
+
+constexpr auto stability_columns = std::make_tuple(            //
+    column("study", &StabilityRecord::study),                  //
+    column("basis", &StabilityRecord::basis),                  //
+    column("transfer", &StabilityRecord::transfer),            //
+    column("stepping", &StabilityRecord::stepping),            //
+    column("waves", &StabilityRecord::waves),                  //
+    column("motion", &StabilityRecord::motion),                //
+    column("lattice", &StabilityRecord::lattice),              //
+    column("kind", &StabilityRecord::kind),                    //
+    column("r_predicted", &StabilityRecord::r_predicted),      //
+    column("cfl_predicted", &StabilityRecord::cfl_predicted),  //
+    column("r_measured", &StabilityRecord::r_measured),        //
+    column("cfl_measured", &StabilityRecord::cfl_measured),    //
+    column("r_tested", &StabilityRecord::r_tested),            //
+    column("cfl_tested", &StabilityRecord::cfl_tested),        //
+    column("theta_x", &StabilityRecord::theta_x),              //
+    column("theta_y", &StabilityRecord::theta_y),              //
+    column("offset_x", &StabilityRecord::offset_x),            //
+    column("offset_y", &StabilityRecord::offset_y),            //
+    column("steps", &StabilityRecord::steps),                  //
+    column("crossing", &StabilityRecord::crossing));
+
 constexpr auto shear_columns = std::make_tuple(   //
     column("t", &ShearRow::t),                    //
     column("location", &ShearRow::location),      //
     column("place", &ShearRow::place),            //
     column("shear_rate", &ShearRow::shear_rate),  //
     column("viscosity_ratio", &ShearRow::viscosity_ratio));
+
+constexpr auto state_columns = std::make_tuple(         //
+    column("t", &StateRow::t),                          //
+    column("location", &StateRow::location),            //
+    column("x", &StateRow::x),                          //
+    column("y", &StateRow::y),                          //
+    column("density", &StateRow::density),              //
+    column("density_exact", &StateRow::density_exact),  //
+    column("pressure", &StateRow::pressure),            //
+    column("pressure_exact", &StateRow::pressure_exact));
 
 constexpr auto profile_columns = std::make_tuple(  //
     column("t", &ProfileRow::t),                   //
@@ -150,7 +207,8 @@ constexpr auto history_columns = std::make_tuple(     //
     column("momentum_y", &HistoryRow::momentum_y),    //
     column("impulse_x", &HistoryRow::impulse_x),      //
     column("impulse_y", &HistoryRow::impulse_y),      //
-    column("kinetic_energy", &HistoryRow::kinetic_energy));
+    column("kinetic_energy", &HistoryRow::kinetic_energy),
+    column("kinetic_energy_exact", &HistoryRow::kinetic_energy_exact));
 
 std::filesystem::path profile_path(const std::filesystem::path& dir, const std::string& run,
                                    const char* ending) {
@@ -169,7 +227,7 @@ bool is_plain_name(const std::string& name) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' ||
            c == '_' || c == '=' || c == '-';
   };
-  const bool other_file = name.ends_with(".history") || name.ends_with(".shear");
+  const bool other_file = name.ends_with(".history") || name.ends_with(".shear") || name.ends_with(".state");
   // A file name may have 255 bytes; the ending and the temporary file's number need some of them.
   return !name.empty() && name.size() <= 200 && name.front() != '.' && !other_file &&
          std::all_of(name.begin(), name.end(), plain);
@@ -179,7 +237,7 @@ const std::string& require_plain_name(const char* what, const std::string& name)
   if (is_plain_name(name)) return name;
   throw IoError(
       fmt::format("{} name '{}' cannot be a file name; use up to 200 letters, digits and . _ = -, no "
-                  "leading dot, no '.history' or '.shear' at the end",
+                  "leading dot, no '.history', '.shear' or '.state' at the end",
                   what, name));
 }
 
@@ -195,23 +253,39 @@ Results read_results(const std::filesystem::path& dir) {
   results.figures = read_csv(dir / "figures.csv", figure_columns);
   results.claims = read_csv(dir / "claims.csv", claim_columns);
   results.matrix = read_csv(dir / "matrix.csv", matrix_columns);
+  results.scores = read_csv(dir / "scoreboard.csv", score_columns);
+  results.stability = read_csv(dir / "stability.csv", stability_columns);
   require_plain_names(results);
   return results;
 }
 
-void write_results(const std::filesystem::path& dir, const Results& results) {
+void write_results(const std::filesystem::path& dir, const Results& results, Durability durability) {
   require_plain_names(results);
   ensure_directory(dir);
-  write_csv(dir / "studies.csv", study_columns, results.studies);
-  write_csv(dir / "runs.csv", run_columns, results.runs);
-  write_csv(dir / "errors.csv", error_columns, results.errors);
-  write_csv(dir / "levels.csv", level_columns, results.levels);
-  write_csv(dir / "orders.csv", order_columns, results.orders);
-  write_csv(dir / "checks.csv", check_columns, results.checks);
-  write_csv(dir / "timing.csv", timing_columns, results.timings);
-  write_csv(dir / "figures.csv", figure_columns, results.figures);
-  write_csv(dir / "claims.csv", claim_columns, results.claims);
-  write_csv(dir / "matrix.csv", matrix_columns, results.matrix);
+  write_csv(dir / "studies.csv", study_columns, results.studies, durability);
+  write_csv(dir / "runs.csv", run_columns, results.runs, durability);
+  write_csv(dir / "errors.csv", error_columns, results.errors, durability);
+  write_csv(dir / "levels.csv", level_columns, results.levels, durability);
+  write_csv(dir / "orders.csv", order_columns, results.orders, durability);
+  write_csv(dir / "checks.csv", check_columns, results.checks, durability);
+  write_csv(dir / "timing.csv", timing_columns, results.timings, durability);
+  write_csv(dir / "figures.csv", figure_columns, results.figures, durability);
+  write_csv(dir / "claims.csv", claim_columns, results.claims, durability);
+  write_csv(dir / "matrix.csv", matrix_columns, results.matrix, durability);
+  write_csv(dir / "scoreboard.csv", score_columns, results.scores, durability);
+  write_csv(dir / "stability.csv", stability_columns, results.stability, durability);
+}
+
+void remove_tables(const std::filesystem::path& dir) {
+  std::error_code ignored;
+  // checks.csv goes first: without it nobody takes what is left for a result.
+  for (const char* name : {"checks.csv", "report.html", "report.md", "junit.xml", "studies.csv", "runs.csv",
+                           "errors.csv", "levels.csv", "orders.csv", "timing.csv", "figures.csv",
+                           "claims.csv", "matrix.csv", "scoreboard.csv", "stability.csv"})
+    std::filesystem::remove(dir / name, ignored);
+  for (const char* part : {".", "profiles", "scenes", "figures"})
+    for (const auto& entry : std::filesystem::directory_iterator(dir / part, ignored))
+      if (entry.path().extension() == ".tmp") std::filesystem::remove(entry.path(), ignored);
 }
 
 std::vector<ProfileRow> read_profile(const std::filesystem::path& dir, const std::string& run) {
@@ -222,7 +296,7 @@ void write_profile(const std::filesystem::path& dir, const std::string& run,
                    const std::vector<ProfileRow>& rows) {
   const auto path = profile_path(dir, run, ".csv");
   ensure_directory(path.parent_path());
-  write_csv(path, profile_columns, rows);
+  keep_file(path, csv_text(profile_columns, rows));
 }
 
 std::vector<HistoryRow> read_history(const std::filesystem::path& dir, const std::string& run) {
@@ -233,7 +307,7 @@ void write_history(const std::filesystem::path& dir, const std::string& run,
                    const std::vector<HistoryRow>& rows) {
   const auto path = profile_path(dir, run, ".history.csv");
   ensure_directory(path.parent_path());
-  write_csv(path, history_columns, rows);
+  keep_file(path, csv_text(history_columns, rows));
 }
 
 std::vector<ShearRow> read_shear(const std::filesystem::path& dir, const std::string& run) {
@@ -244,7 +318,18 @@ void write_shear(const std::filesystem::path& dir, const std::string& run,
                  const std::vector<ShearRow>& rows) {
   const auto path = profile_path(dir, run, ".shear.csv");
   ensure_directory(path.parent_path());
-  write_csv(path, shear_columns, rows);
+  keep_file(path, csv_text(shear_columns, rows));
+}
+
+std::vector<StateRow> read_state(const std::filesystem::path& dir, const std::string& run) {
+  return read_csv(profile_path(dir, run, ".state.csv"), state_columns);
+}
+
+void write_state(const std::filesystem::path& dir, const std::string& run,
+                 const std::vector<StateRow>& rows) {
+  const auto path = profile_path(dir, run, ".state.csv");
+  ensure_directory(path.parent_path());
+  keep_file(path, csv_text(state_columns, rows));
 }
 
 }  // namespace reports

@@ -7,6 +7,9 @@
 
 namespace mpm {
 
+/// What a mass matrix is solved for: an iteration starts from the last solution of the same kind.
+enum class Nodal { Velocity, Acceleration };
+
 /// The nodes whose functions do not vanish on a wall: the first and the last along a direction with walls,
 /// for every basis here. Their values are the field's values on the wall, so the wall prescribes them. In
 /// a corner each wall prescribes the velocity normal to it, so that nothing is pushed through either (a lid
@@ -27,6 +30,12 @@ class WallNodes {
     }
     for (const Node& n : nodes_) is_wall_[n.index] = 1;
   }
+
+  struct Node {
+    std::size_t index;
+    Edge x_from, y_from;  ///< the walls that give the x and y components; the same one but in corners
+  };
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
 
   [[nodiscard]] bool is_wall(std::size_t node) const { return is_wall_[node] != 0; }
 
@@ -54,23 +63,19 @@ class WallNodes {
     return sum;
   }
 
-  /// An impulsive start: by how much wall nodes jump from the initial field to the wall's velocity at t = 0.
+  /// An impulsive start: by how much wall nodes jump from the initial field to the wall's velocity at
+  /// that time.
   [[nodiscard]] VectorField initial_jump(const Grid& grid) const {
     VectorField jump(grid.size(), Vec2::Zero());
     for (const Node& n : nodes_) {
       const Vec2 fluid =
           scene_.initial_velocity ? scene_.initial_velocity(grid.control_point(n.index)) : Vec2(Vec2::Zero());
-      jump[n.index] = velocity_of(n, 0) - fluid;
+      jump[n.index] = velocity_of(n, scene_.start) - fluid;
     }
     return jump;
   }
 
  private:
-  struct Node {
-    std::size_t index;
-    Edge x_from, y_from;  // the walls that give the x and y components; the same one but in corners
-  };
-
   [[nodiscard]] Vec2 velocity_of(const Node& n, double t) const {
     return {scene_.side(n.x_from).velocity(t).x(), scene_.side(n.y_from).velocity(t).y()};
   }

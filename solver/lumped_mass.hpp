@@ -9,16 +9,16 @@ namespace mpm {
 /// Nodal mass summed onto the diagonal, m_i = sum_p N_ip m_p: each node for itself.
 class LumpedMass {
  public:
-  static constexpr bool needs_table = false;
-
   LumpedMass(const Grid&, const WallNodes&) {}
 
   /// Nothing to do: grid.mass is summed with the momenta.
-  void assemble(const StencilTable&, const ScalarField&) {}
+  template <class Basis>
+  void assemble(const StencilTable&, const Grid&, const Particles&) {}
+  [[nodiscard]] static constexpr bool needs_table() { return false; }
 
   /// field_i /= m_i, in place; a node without mass gets zero. `impose` sets the walls' values.
   template <class Impose>
-  void solve(const Grid& grid, VectorField& field, Impose&& impose) const {
+  void solve(const Grid& grid, VectorField& field, Impose&& impose, Nodal = Nodal::Velocity) const {
     for (std::size_t i = 0; i < grid.size(); ++i) {
       if (grid.mass[i] > 0)
         field[i] /= grid.mass[i];

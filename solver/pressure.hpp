@@ -1,6 +1,11 @@
 #pragma once
 
+#include <cmath>
+#include <type_traits>
+
 namespace mpm {
+
+// A pressure policy works on one particle, or on an array of them.
 
 /// Tait equation of state P = K[(rho/rho0)^7 - 1] (paper Eq. 23) with density following the dilatation.
 struct TaitPressure {
@@ -12,10 +17,15 @@ struct TaitPressure {
   [[nodiscard]] double advance_density(double density, double dilatation_rate, double dt) const {
     return density / (1 + dt * dilatation_rate);
   }
-  [[nodiscard]] double pressure(double density) const {
-    const double r = density * inverse_reference_density;
-    const double r3 = r * r * r;
+  template <class Real>
+  requires(!std::is_integral_v<Real>) [[nodiscard]] Real pressure(const Real& density) const {
+    const Real r = density * inverse_reference_density;
+    const Real r3 = r * r * r;
     return bulk_modulus * (r3 * r3 * r - 1);
+  }
+  /// The density at which the pressure is P [kg/m3]; P > -K.
+  [[nodiscard]] double density(double pressure) const {
+    return std::pow(1 + pressure / bulk_modulus, 1.0 / 7) / inverse_reference_density;
   }
 };
 

@@ -52,6 +52,8 @@ void Scene::validate() const {
     require(particles_per_cell[a] >= 1, "particles per cell along " + along + " must be at least 1");
     require(sides[2 * a].periodic == sides[2 * a + 1].periodic,
             "sides that face each other along " + along + " must both be periodic or both be walls");
+    require(std::isfinite(seeding.shift[a]) && (seeding.shift[a] == 0 || periodic(axis)),
+            "the shift of the particles along " + along + " must be finite, and 0 between walls");
   }
   require(seeding.displacement >= 0 && seeding.displacement <= 0.5, "the displacement must lie in [0, 0.5]");
   for (const Side& s : sides)

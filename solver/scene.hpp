@@ -54,6 +54,9 @@ struct Seeding {
   /// and to either side; it is put back by reflection where that crosses a wall. 0: none.
   double displacement = 0;
   unsigned seed = 1;  ///< of the random numbers; the same on every machine
+  /// Every particle is moved by this part of a cell along x, y, around periodic directions: where a stream
+  /// would have carried the lattice. Must be 0 between walls.
+  std::array<double, 2> shift{0, 0};
 };
 
 /// Name of a rule ("even", "gauss") and back (throws SceneError listing the known names).
@@ -72,6 +75,7 @@ struct Scene {
   /// Acceleration that varies in space [m/s2], written for all points [m] at time t in one call; none when
   /// empty.
   std::function<void(const VectorField& points, double t, VectorField& acceleration)> acceleration_field;
+  double start = 0;                                    ///< time at which the initial state stands [s]
   std::function<Vec2(const Vec2&)> initial_velocity;   ///< [m/s]; at rest when empty
   std::function<double(const Vec2&)> initial_density;  ///< [kg/m3]; the reference density when empty
 

@@ -1,5 +1,8 @@
 #include "solver/scheme.hpp"
 
+#include <cmath>
+#include <sstream>
+
 #include "solver/scene.hpp"
 
 namespace mpm {
@@ -24,6 +27,9 @@ Enum value_in(const std::vector<SchemePart>& parts, const std::string& text) {
 
 void Scheme::validate() const {
   if (!(flip_fraction >= 0 && flip_fraction <= 1)) throw SceneError("flip_fraction must lie in [0, 1]");
+  if (reset_every < 0) throw SceneError("reset_every must not be negative");
+  if (!(reset_strain >= 0 && std::isfinite(reset_strain)))
+    throw SceneError("reset_strain must be finite and not negative");
 }
 
 const std::vector<SchemePart>& basis_parts() {
@@ -67,6 +73,18 @@ std::string name(Scheme::Transfer transfer) {
 }
 std::string name(Scheme::Stepping stepping) {
   return name_in(stepping_parts(), stepping);
+}
+std::string reset_name(const Scheme& scheme) {
+  if (!scheme.resets()) return "never";
+  std::string text;
+  if (scheme.reset_every > 0)
+    text = "every " + std::to_string(scheme.reset_every) + (scheme.reset_every == 1 ? " step" : " steps");
+  if (scheme.reset_strain > 0) {
+    std::ostringstream strain;
+    strain << scheme.reset_strain;
+    text += (text.empty() ? "every strain of " : " or strain of ") + strain.str();
+  }
+  return text;
 }
 Scheme::Basis basis_named(const std::string& text) {
   return value_in<Scheme::Basis>(basis_parts(), text);

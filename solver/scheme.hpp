@@ -15,8 +15,15 @@ struct Scheme {
   Transfer transfer = Transfer::Flip;
   Stepping stepping = Stepping::Usf;
   double flip_fraction = 0.95;  ///< FlipBlend only: 1 is FLIP, 0 is PIC
+  /// Particles return to their lattice (solver/particle_reset.hpp) after this many steps; 0: never.
+  int reset_every = 0;
+  /// The same once the fluid has been strained by this much since the last time, integral of sqrt(2 D:D) dt
+  /// where that is largest; 0: never. Unlike a number of steps it does not change with dt.
+  double reset_strain = 0;
 
-  /// Throws SceneError for a fraction outside [0, 1].
+  [[nodiscard]] bool resets() const { return reset_every > 0 || reset_strain > 0; }
+
+  /// Throws SceneError for a fraction outside [0, 1], or a negative or infinite reset.
   void validate() const;
 };
 
@@ -35,6 +42,9 @@ const std::vector<SchemePart>& stepping_parts();
 std::string name(Scheme::Basis basis);
 std::string name(Scheme::Transfer transfer);
 std::string name(Scheme::Stepping stepping);
+/// When a scheme resets its particles: "never", "every 25 steps", "every strain of 0.5", or both joined by
+/// "or".
+std::string reset_name(const Scheme& scheme);
 Scheme::Basis basis_named(const std::string& text);
 Scheme::Transfer transfer_named(const std::string& text);
 Scheme::Stepping stepping_named(const std::string& text);

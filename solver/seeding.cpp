@@ -33,7 +33,9 @@ Row row_along(const Scene& scene, int axis) {
   Row row;
   for (int cell = 0; cell < scene.cells[a]; ++cell)
     for (std::size_t k = 0; k < points.position.size(); ++k) {
-      row.position.push_back((cell + points.position[k]) * total / scene.cells[a]);
+      const double x = (cell + points.position[k]) * total / scene.cells[a];
+      const double shifted = x + scene.seeding.shift[a] * total / scene.cells[a];
+      row.position.push_back(scene.seeding.shift[a] == 0 ? x : shifted - total * std::floor(shifted / total));
       row.length.push_back(points.weight[k] * total / scene.cells[a]);
     }
   return row;

@@ -30,16 +30,16 @@ VectorField sample_points(const Scene& scene, const Scheme& scheme) {
   return lattice(scene, {parts(0), parts(1)});
 }
 
-std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme) {
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme, int threads) {
   scene.validate();
   scheme.validate();
   switch (scheme.basis) {
     case Scheme::Basis::Linear:
-      return make_linear_solver(scene, scheme);
+      return make_linear_solver(scene, scheme, threads);
     case Scheme::Basis::Quadratic:
-      return make_quadratic_solver(scene, scheme);
+      return make_quadratic_solver(scene, scheme, threads);
     case Scheme::Basis::Cubic:
-      return make_cubic_solver(scene, scheme);
+      return make_cubic_solver(scene, scheme, threads);
   }
   throw SceneError("a basis has no solver");
 }

@@ -18,6 +18,17 @@ struct Totals {
   double kinetic_energy;  ///< of the particles [J/m]
 };
 
+/// Totals of particles, and of the impulse that is known of them.
+inline Totals totals_of(const Particles& particles, const Vec2& impulse) {
+  Totals sum{0, Vec2::Zero(), impulse, 0};
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    sum.mass += particles.mass[p];
+    sum.momentum += particles.mass[p] * particles.velocity[p];
+    sum.kinetic_energy += 0.5 * particles.mass[p] * particles.velocity[p].squaredNorm();
+  }
+  return sum;
+}
+
 /// One simulation, whatever its basis, transfer, stepping and fluid. The scene must outlive it.
 class Simulation {
  public:
@@ -52,7 +63,8 @@ VectorField cell_corners(const Scene& scene);
 VectorField sample_points(const Scene& scene, const Scheme& scheme);
 
 /// Seeds the scene and starts the chosen scheme on it. Throws SceneError for a scene that cannot be
-/// simulated.
-std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme);
+/// simulated. `threads` work on it; the results are the same for any number of them. Schemes that the vector
+/// kernels do not cover (LaneSolver) run on one.
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme, int threads = 1);
 
 }  // namespace mpm

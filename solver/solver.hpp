@@ -6,8 +6,10 @@
 
 #include "solver/boundary.hpp"
 #include "solver/implicit_viscosity.hpp"
+#include "solver/particle_reset.hpp"
 #include "solver/seeding.hpp"
 #include "solver/simulation.hpp"
+#include "solver/straight_drift.hpp"
 #include "solver/stress_update.hpp"
 #include "solver/transfer.hpp"
 
@@ -18,35 +20,27 @@ namespace mpm {
 template <class Basis, class Transfer>
 class Solver final : public Simulation {
  public:
-  Solver(const Scene& scene, Scheme::Stepping stepping, const Transfer& transfer)
+  Solver(const Scene& scene, const Scheme& scheme, const Transfer& transfer)
       : scene_(scene),
-        stepping_(stepping),
+        stepping_(scheme.stepping),
         transfer_(transfer),
         particles_(seed_particles(scene)),
         grid_(scene, Basis::degree),
         walls_(scene, grid_),
         mass_(grid_, walls_),
         update_stress_(make_stress_update<Basis>(scene.fluid)) {
-    if (stepping == Scheme::Stepping::ImplicitEuler || stepping == Scheme::Stepping::ImplicitSdirk2)
+    if (stepping_ == Scheme::Stepping::ImplicitEuler || stepping_ == Scheme::Stepping::ImplicitSdirk2)
       implicit_viscosity_ = make_implicit_viscosity(scene.fluid.rheology, grid_, walls_);
+    if (scheme.resets()) reset_.emplace(scene, scheme, grid_, walls_);
     start();
     (*update_stress_)(particles_, grid_, grid_.velocity, 0);
   }
 
   void advance(double t, double dt) override {
-    switch (stepping_) {
-      case Scheme::Stepping::Usf:
-        return step_usf(t, dt);
-      case Scheme::Stepping::Usl:
-        return step_usl(t, dt);
-      case Scheme::Stepping::Musl:
-        return step_musl(t, dt);
-      case Scheme::Stepping::Leapfrog:
-        return step_leapfrog(t, dt);
-      case Scheme::Stepping::ImplicitEuler:
-        return step_implicit_euler(t, dt);
-      case Scheme::Stepping::ImplicitSdirk2:
-        return step_implicit_sdirk2(t, dt);
+    step(t, dt);
+    if (reset_ && !breakdown_ && reset_->due(grid_, particles_, dt)) {
+      (*reset_)(t + dt, walls_, grid_, particles_);
+      (*update_stress_)(particles_, grid_, grid_.velocity, 0);
     }
   }
 
@@ -69,18 +63,27 @@ class Solver final : public Simulation {
     return gradients;
   }
 
-  [[nodiscard]] Totals totals() const override {
-    Totals sum{0, Vec2::Zero(), impulse_, 0};
-    for (std::size_t p = 0; p < particles_.size(); ++p) {
-      sum.mass += particles_.mass[p];
-      sum.momentum += particles_.mass[p] * particles_.velocity[p];
-      sum.kinetic_energy += 0.5 * particles_.mass[p] * particles_.velocity[p].squaredNorm();
-    }
-    return sum;
-  }
+  [[nodiscard]] Totals totals() const override { return totals_of(particles_, impulse_); }
 
  private:
   using Mass = typename Transfer::Mass;
+
+  void step(double t, double dt) {
+    switch (stepping_) {
+      case Scheme::Stepping::Usf:
+        return step_usf(t, dt);
+      case Scheme::Stepping::Usl:
+        return step_usl(t, dt);
+      case Scheme::Stepping::Musl:
+        return step_musl(t, dt);
+      case Scheme::Stepping::Leapfrog:
+        return step_leapfrog(t, dt);
+      case Scheme::Stepping::ImplicitEuler:
+        return step_implicit_euler(t, dt);
+      case Scheme::Stepping::ImplicitSdirk2:
+        return step_implicit_sdirk2(t, dt);
+    }
+  }
 
   /// The grid with the particles' velocity mapped to it and the walls' imposed.
   [[nodiscard]] Grid mapped_grid(double t) const {
@@ -181,19 +184,20 @@ class Solver final : public Simulation {
     close_drift(t + dt, dt / 2);
   }
 
-  /// Brings the walls' velocity at t = 0 into the particles. Projections that hand particles the grid's
+  /// Brings the walls' velocity at the start into the particles. Projections that hand particles the grid's
   /// velocity do it by themselves; others give them the wall nodes' share of the jump, as FLIP hands them
   /// every later change of a node.
   void start() {
     if constexpr (std::is_same_v<Mass, ConsistentMass>) {
-      map_velocity(0, grid_, grid_.velocity, mass_, table_);
+      map_velocity(scene_.start, grid_, grid_.velocity, mass_, table_);
       grid_to_particles(0);
+      take_gradients<Basis>(grid_, particles_);
     } else {
       if constexpr (std::is_same_v<Transfer, Apic>) particles_.affine = initial_gradients(scene_, particles_);
       const VectorField jump = walls_.initial_jump(grid_);
       for (std::size_t p = 0; p < particles_.size(); ++p)
         transfer_.template take_jump<Basis>(grid_, jump, particles_, p);
-      map_velocity(0, grid_, grid_.velocity, mass_, table_);
+      map_velocity(scene_.start, grid_, grid_.velocity, mass_, table_);
     }
   }
 
@@ -218,8 +222,8 @@ class Solver final : public Simulation {
                                              grid.mass, velocity);
     Vec2 total = Vec2::Zero();
     for (const Vec2& momentum : velocity) total += momentum;
-    if (Mass::needs_table || implicit_viscosity_) table.assign<Basis>(grid, particles_);
-    mass.assemble(table, particles_.mass);
+    if (mass.needs_table() || implicit_viscosity_) table.assign<Basis>(grid, particles_);
+    mass.template assemble<Basis>(table, grid, particles_);
     mass.solve(grid, velocity, [&](VectorField& v) { walls_.impose_velocity(v, t); });
     return total;
   }
@@ -263,7 +267,7 @@ class Solver final : public Simulation {
   template <class Impose>
   void solve_acceleration(Impose&& impose) {
     grid_.acceleration = grid_.force;
-    mass_.solve(grid_, grid_.acceleration, impose);
+    mass_.solve(grid_, grid_.acceleration, impose, Nodal::Acceleration);
   }
 
   /// Velocity at the middle of the step, by Euler.
@@ -305,6 +309,7 @@ class Solver final : public Simulation {
 
   /// Moves the particles and compresses them with the velocity that they have at t, mapped where they are.
   void drift(double t, double dt) {
+    if constexpr (Transfer::is_grid_field) return drift_straight(dt);
     map_velocity(t, grid_, grid_.velocity, mass_, table_);
     drift_on(dt);
   }
@@ -317,18 +322,34 @@ class Solver final : public Simulation {
 
   /// The second half of a drift, with the velocity that the particles have at the end of the step.
   void close_drift(double t, double dt) {
+    if constexpr (Transfer::is_grid_field) {
+      take_gradients<Basis>(grid_, particles_);
+      return drift_straight(dt);
+    }
     if constexpr (Transfer::keeps_velocity) map_velocity(t, grid_, grid_.velocity, mass_, table_);
     drift_on(dt);
   }
 
-  /// Particles follow the interpolated grid velocity (the paper's Eq. 20 uses their own); x in periodic
-  /// directions wraps. The same loop finds a state that cannot be continued from.
+  /// The same for particles whose velocity is the grid's: along straight lines, without another projection.
+  void drift_straight(double dt) {
+    strain_straight(particles_, dt, scene_.fluid.pressure);
+    move_particles(dt, [&](std::size_t p) { return particles_.velocity[p]; });
+  }
+
+  /// Particles follow the interpolated grid velocity (the paper's Eq. 20 uses their own).
   void move_particles(double dt) {
+    move_particles(
+        dt, [&](std::size_t p) { return interpolate<Basis>(grid_, grid_.velocity, particles_.position[p]); });
+  }
+
+  /// x in periodic directions wraps. The same loop finds a state that cannot be continued from.
+  template <class Velocity>
+  void move_particles(double dt, const Velocity& velocity) {
     double energy = 0;
     bool inside = true, dense = true;
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       Vec2& x_p = particles_.position[p];
-      x_p += dt * interpolate<Basis>(grid_, grid_.velocity, x_p);
+      x_p += dt * velocity(p);
       inside &= grid_.x.contain(x_p.x()) && grid_.y.contain(x_p.y());
       dense &= particles_.density[p] > 0;
       energy += particles_.velocity[p].squaredNorm();
@@ -350,6 +371,7 @@ class Solver final : public Simulation {
   Mass mass_;
   StencilTable table_;
   std::unique_ptr<StressUpdate> update_stress_;
+  std::optional<ParticleReset<Basis, Transfer>> reset_;
   std::unique_ptr<ImplicitViscosity> implicit_viscosity_;
   VectorField start_velocity_, stage_velocity_, particle_acceleration_;
   Vec2 body_force_ = Vec2::Zero(), impulse_ = Vec2::Zero();

@@ -2,8 +2,8 @@
 
 namespace mpm {
 
-std::unique_ptr<Simulation> make_linear_solver(const Scene& scene, const Scheme& scheme) {
-  return make_solver_of_degree<1>(scene, scheme);
+std::unique_ptr<Simulation> make_linear_solver(const Scene& scene, const Scheme& scheme, int threads) {
+  return make_solver_of_degree<1>(scene, scheme, threads);
 }
 
 }  // namespace mpm

@@ -1,7 +1,10 @@
 #include "solver/time_step.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "solver/stable_step.hpp"
 
 namespace mpm {
 namespace {
@@ -10,6 +13,19 @@ namespace {
 constexpr double sliver = 1e-6;
 
 }  // namespace
+
+TimeStepRule automatic_time_step(const Scheme& scheme, const Scene& scene) {
+  const StableStep limit = stable_step(scheme, fewest_particles_per_cell(scene));
+  if (!(limit.viscous > 0 && limit.acoustic > 0))
+    throw SceneError(
+        "full mass with one particle a cell is stable at no explicit step: seed two or more a cell along "
+        "every "
+        "axis");
+  TimeStepRule rule;
+  rule.cfl_viscous = std::min(rule.cfl_viscous, 0.5 * limit.viscous);
+  rule.cfl_acoustic = std::min(rule.cfl_acoustic, 0.5 * limit.acoustic);
+  return rule;
+}
 
 double nominal_time_step(const TimeStepRule& rule, const Scene& scene) {
   if (!std::isfinite(rule.dt) || rule.dt < 0) throw SceneError("dt must be positive and finite");

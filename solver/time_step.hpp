@@ -12,15 +12,19 @@ namespace mpm {
 
 /// How the time step is chosen: a fixed dt, or fractions of the explicit limits
 ///   acoustic  dt <= cfl_acoustic h/c,   viscous  dt <= cfl_viscous h^2/nu_max
-/// with h the smallest cell side. DESIGN: linear USF is stable to cfl_acoustic sqrt(2), cfl_viscous 0.745 at
-/// the worst particle offset. Full mass is stiffer: cfl_viscous 0.170 (linear), 0.167 (quadratic), 0.134
-/// (cubic), measured in shear between walls with Gauss rows; implicit viscosity has no such limit, so give it
-/// a dt.
+/// with h the smallest cell side. automatic_time_step() gives fractions that every scheme bears.
 struct TimeStepRule {
   double dt = 0;  ///< [s]; 0: from the limits
   double cfl_acoustic = 0.5;
   double cfl_viscous = 0.2;
 };
+
+/// Half of each limit in solver/stable_step.hpp, but not above cfl_viscous 0.2 and cfl_acoustic 0.5, which
+/// keep the time error small. Viscosity and sound together are stable wherever r/r_max + (CFL/CFL_max)^2 <= 1
+/// (so it is for stress first, others bear more): halves use three quarters of that, and dt may grow by 1.23
+/// before anything does. Implicit viscosity has no viscous limit; give it a dt to make use of that. Throws
+/// SceneError where no explicit step is stable (full mass with one particle a cell).
+TimeStepRule automatic_time_step(const Scheme& scheme, const Scene& scene);
 
 /// Largest step that the rule allows [s]. Throws SceneError for a negative or non-finite dt, or when neither
 /// viscosity nor sound bounds the step.

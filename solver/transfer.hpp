@@ -13,7 +13,8 @@ namespace mpm {
 //   take             G2P: the new velocity of particle p from the grid's velocity and acceleration;
 //   take_jump        the share of particle p in a jump of nodal velocities (impulsive start);
 //   grid_fraction    the part of a particle's velocity that take() replaces by the grid's;
-//   keeps_velocity   whether a part of it stays the particle's own.
+//   keeps_velocity   whether a part of it stays the particle's own;
+//   is_grid_field    whether P2G after G2P is the identity, so that particles stand for the grid's own field.
 
 /// P2G of transfers whose particles carry a velocity only: sum_p N_ip m_p v_p (paper Eq. 15).
 struct VelocityToGrid {
@@ -37,7 +38,7 @@ struct VelocityToGrid {
 /// FLIP: the particle keeps its velocity and takes the grid's increment (paper Eqs. 18-19).
 struct Flip : VelocityToGrid {
   using Mass = LumpedMass;
-  static constexpr bool keeps_velocity = true;
+  static constexpr bool keeps_velocity = true, is_grid_field = false;
   [[nodiscard]] static double grid_fraction() { return 0; }
 
   template <class Basis>
@@ -49,7 +50,7 @@ struct Flip : VelocityToGrid {
 /// PIC: the particle takes the grid's velocity (Harlow 1964).
 struct Pic : VelocityToGrid {
   using Mass = LumpedMass;
-  static constexpr bool keeps_velocity = false;
+  static constexpr bool keeps_velocity = false, is_grid_field = false;
   [[nodiscard]] static double grid_fraction() { return 1; }
 
   template <class Basis>
@@ -61,7 +62,7 @@ struct Pic : VelocityToGrid {
 /// A mean of FLIP and PIC (Zhu and Bridson 2005).
 struct FlipBlend : VelocityToGrid {
   using Mass = LumpedMass;
-  static constexpr bool keeps_velocity = true;
+  static constexpr bool keeps_velocity = true, is_grid_field = false;
   double flip_fraction;
 
   explicit FlipBlend(double fraction) : flip_fraction(fraction) {}
@@ -84,7 +85,7 @@ struct FlipBlend : VelocityToGrid {
 /// gradient (Jiang et al. 2017), which needs no inverse on cell edges.
 struct Apic {
   using Mass = LumpedMass;
-  static constexpr bool keeps_velocity = false;
+  static constexpr bool keeps_velocity = false, is_grid_field = false;
   [[nodiscard]] static double grid_fraction() { return 1; }
 
   template <class Basis>
@@ -135,7 +136,7 @@ struct Apic {
 /// (Burgess, Sulsky and Brackbill 1992).
 struct FullMass : VelocityToGrid {
   using Mass = ConsistentMass;
-  static constexpr bool keeps_velocity = false;
+  static constexpr bool keeps_velocity = false, is_grid_field = true;
   [[nodiscard]] static double grid_fraction() { return 1; }
 
   template <class Basis>

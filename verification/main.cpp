@@ -42,11 +42,38 @@ int dispatch(int argc, char** argv) {
   run_app->add_option("--jobs", run.jobs, "Runs at the same time (default: one a core)")
       ->check(CLI::Range(1, 1024));
   run_app->add_option("--studies", studies, "Directory of the studies");
+  auto* no_cache = run_app->add_flag("--no-cache", run.no_cache,
+                                     "Run everything; neither use nor fill the cache of finished runs");
+  run_app->add_flag("--fresh", run.fresh, "Run everything, and replace what the cache of finished runs holds")
+      ->excludes(no_cache);
+  run_app->add_flag("--resume", run.resume,
+                    "Go on with a suite that was stopped or killed in --out: finished runs come from the "
+                    "cache, the rest is "
+                    "run, with the same bytes as without the stop. Plain `run` does so too; --resume refuses "
+                    "a directory in "
+                    "which none was begun");
 
   std::string report_dir;
   auto* report_app =
       app.add_subcommand("report", "Rebuild figures and reports from the CSV files of a directory");
   report_app->add_option("DIR", report_dir, "Directory of results")->required();
+
+  CompareOptions compare;
+  auto* compare_app = app.add_subcommand(
+      "compare",
+      "What changed from OLD to NEW, by how much, and whether beyond noise: checks, runs, errors, orders, "
+      "times. "
+      "Times are noisy to three times the spread of their repetitions and at least 5 %; a time measured once "
+      "is "
+      "shown, not judged. Errors below 1e-12 are round-off. Exit code 1 if something got worse: an error, a "
+      "time, an order further from theory, a check that turned red");
+  compare_app->add_option("OLD", compare.before, "Directory of results, or one CSV file of them")->required();
+  compare_app->add_option("NEW", compare.after, "The same, later")->required();
+  compare_app
+      ->add_option("--tolerance", compare.tolerance, "Relative change of errors and orders that is round-off")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  compare_app->add_flag("--all", compare.all, "List every change, not the first 20 of each file");
 
   SceneOptions scene;
   auto* solve_app = app.add_subcommand("solve", "One simulation of a scene");
@@ -57,6 +84,8 @@ int dispatch(int argc, char** argv) {
     sub->add_option("--out", scene.out, "Directory of the results")->required();
   }
 
+  solve_app->add_flag("--no-figures", scene.no_figures, "Draw nothing: for timing, and for many scenes");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -66,6 +95,7 @@ int dispatch(int argc, char** argv) {
   run.command_line = scene.command_line = joined(argc, argv);
   if (*list_app) return list_command(list);
   if (*run_app) return run_command(run);
+  if (*compare_app) return compare_command(compare);
   if (*report_app) return report_command(report_dir);
   if (*solve_app) return solve_command(scene);
   return reference_command(scene);

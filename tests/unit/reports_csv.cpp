@@ -71,6 +71,9 @@ TEST_CASE("every table survives writing and reading", "[reports]") {
   out.timings = {{"a", 1.5, 2.5e7}};
   out.figures = {
       {"fig", "s", "history", "title; with 'semicolon'", "a;b", "A;B", "y", "u", "grid;particles", "l2"}};
+  out.scores = {{"s", "a, case", "linear_flip_usf", "linear", "flip", "usf", "diverged", "diverged", "pass",
+                 third, not_a_number, tiny, 0.1, 0.5, infinity, "grid", "diverged at t = 1 s: \"why\"",
+                 "because", "so"}};
   write_results(dir.path(), out);
   const Results in = read_results(dir.path());
 
@@ -115,10 +118,17 @@ TEST_CASE("every table survives writing and reading", "[reports]") {
   CHECK(in.figures[0].title == out.figures[0].title);
   CHECK(in.figures[0].norm == "l2");
 
+  REQUIRE(in.scores.size() == 1);
+  CHECK(in.scores[0].hard_case == "a, case");
+  CHECK(same(in.scores[0].t_diverged, third));
+  CHECK(std::isnan(in.scores[0].error));
+  CHECK(in.scores[0].thresholds == "so");
+
   // Every field, also those not named above: a second round must give the same bytes.
   TemporaryDirectory again;
   write_results(again.path(), in);
-  for (const char* name : {"studies", "runs", "errors", "levels", "orders", "checks", "timing", "figures"}) {
+  for (const char* name :
+       {"studies", "runs", "errors", "levels", "orders", "checks", "timing", "figures", "scoreboard"}) {
     const std::string file = std::string(name) + ".csv";
     CHECK(read_file(dir / file) == read_file(again / file));
   }
@@ -134,6 +144,12 @@ TEST_CASE("profiles and histories survive writing and reading", "[reports]") {
   CHECK(same(profile[0].v, -0.0));
   CHECK(same(profile[0].u_exact, 1.0 / 3));
   CHECK(profile[0].v_exact == 4);
+  write_state(dir.path(), "r", {{1, "particles", 2, 3, 4, 5, 6, 7}});
+  const auto state = read_state(dir.path(), "r");
+  REQUIRE(state.size() == 1);
+  CHECK(state[0].y == 3);
+  CHECK(state[0].density_exact == 5);
+  CHECK(state[0].pressure == 6);
   write_history(dir.path(), "r", {{1, 2, 3, 4, 5, 6, 7, 8, 9}});
   const auto history = read_history(dir.path(), "r");
   REQUIRE(history.size() == 1);
@@ -146,10 +162,10 @@ TEST_CASE("the columns are those that the README names", "[reports]") {
   TemporaryDirectory dir;
   write_results(dir.path(), {});
   CHECK(read_file(dir / "runs.csv") ==
-        "run,study,scene,fluid,basis,transfer,stepping,cells,particles,dt,steps,status\n");
+        "run,study,scene,fluid,basis,transfer,stepping,reset,cells,particles,dt,steps,status\n");
   CHECK(read_file(dir / "errors.csv") == "run,t,location,l1,l2,linf\n");
   CHECK(read_file(dir / "checks.csv") == "study,check,observed,lower,upper,unit,verdict,reason\n");
-  CHECK(read_file(dir / "timing.csv") == "run,wall_s,particle_steps_per_s\n");
+  CHECK(read_file(dir / "timing.csv") == "run,wall_s,particle_steps_per_s,repetitions,spread,source\n");
   write_profile(dir.path(), "r", {});
   CHECK(read_file(dir / "profiles/r.csv") == "t,location,x,y,u,v,u_exact,v_exact\n");
 }
@@ -158,11 +174,13 @@ TEST_CASE("columns may come in any order and there may be more of them", "[repor
   TemporaryDirectory dir;
   write_results(dir.path(), {});
   write_file(dir / "timing.csv",
-             "machine,wall_s,run,particle_steps_per_s\r\n\"x,\"\"y\"\"\",+2.5 , r ,1e400\r\n");
+             "machine,wall_s,run,repetitions,source,spread,particle_steps_per_s\r\n"
+             "\"x,\"\"y\"\"\",+2.5 , r ,3,cache,nan,1e400\r\n");
   CHECK_THROWS_WITH(read_results(dir.path()),
                     contains("timing.csv:2: column 'particle_steps_per_s': '1e400'"));
   write_file(dir / "timing.csv",
-             "machine,wall_s,run,particle_steps_per_s\r\n\"x,\"\"y\"\"\",+2.5 , r ,1e4\r\n");
+             "machine,wall_s,run,repetitions,source,spread,particle_steps_per_s\r\n"
+             "\"x,\"\"y\"\"\",+2.5 , r ,3,cache,nan,1e4\r\n");
   const Results results = read_results(dir.path());
   REQUIRE(results.timings.size() == 1);
   CHECK(results.timings[0].run == "r");
@@ -192,8 +210,8 @@ TEST_CASE("a bad file is named with line and column", "[reports]") {
                     contains("checks.csv:2: a quoted text is not closed"));
   CHECK_THROWS_WITH(reading(header + std::string("s\0", 2)), contains("checks.csv:2: a zero byte"));
   write_file(dir / "runs.csv",
-             "run,study,scene,fluid,basis,transfer,stepping,cells,particles,dt,steps,status\n"
-             "r,s,s,f,b,t,u,2.5,1,1,1,completed\n");
+             "run,study,scene,fluid,basis,transfer,stepping,reset,cells,particles,dt,steps,status\n"
+             "r,s,s,f,b,t,u,never,2.5,1,1,1,completed\n");
   CHECK_THROWS_WITH(read_results(dir.path()),
                     contains("runs.csv:2: column 'cells': '2.5' is not a whole number"));
   std::filesystem::remove(dir / "runs.csv");
@@ -203,7 +221,7 @@ TEST_CASE("a bad file is named with line and column", "[reports]") {
 TEST_CASE("names that would lead out of the directory are refused", "[reports]") {
   TemporaryDirectory dir;
   for (const char* name :
-       {"", ".", "..", "../x", "a/b", "/etc/passwd", "a b", "x.history", "a\nb", "ü", ".hidden"}) {
+       {"", ".", "..", "../x", "a/b", "/etc/passwd", "a b", "x.history", "x.state", "a\nb", "ü", ".hidden"}) {
     CHECK_FALSE(is_plain_name(name));
     CHECK_THROWS_AS(write_profile(dir.path(), name, {}), IoError);
     CHECK_THROWS_AS(read_history(dir.path(), name), IoError);

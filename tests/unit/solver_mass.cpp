@@ -41,7 +41,7 @@ VectorField to_grid(const Transfer& transfer, Grid& grid, const WallNodes& walls
   typename Transfer::Mass mass(grid, walls);
   StencilTable table;
   table.assign<Basis>(grid, particles);
-  mass.assemble(table, particles.mass);
+  mass.template assemble<Basis>(table, grid, particles);
   mass.solve(grid, velocity, [&](VectorField& v) { walls.impose_velocity(v, 0); });
   return velocity;
 }

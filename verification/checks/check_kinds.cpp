@@ -4,9 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "verification/checks/chatter_check.hpp"
 #include "verification/checks/check_keys.hpp"
 #include "verification/checks/check_reader.hpp"
 #include "verification/checks/comparison.hpp"
+#include "verification/checks/outcome_check.hpp"
+#include "verification/checks/stability_checks.hpp"
 #include "verification/study/measures.hpp"
 #include "verification/study/scheme_matrix.hpp"
 
@@ -207,6 +210,9 @@ const std::vector<CheckKind>& check_kinds() {
         {"divergence", read_divergence, evaluate_divergence},
     };
     add_quantity_kinds(list);
+    add_outcome_kind(list);
+    add_chatter_kind(list);
+    add_stability_kinds(list);
     return list;
   }();
   return kinds;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "verification/checks/stability_checks.hpp"
+
 namespace verification {
 namespace {
 
@@ -42,6 +44,8 @@ CheckSpec read_check(TomlTable& table, const Study& study) {
   if (spec.lower > spec.upper) table.fail("lower", "must not exceed upper");
   spec.claim = table.text("evidence_for", "");
   const CheckKind& kind = kind_named(spec.kind, table);
+  if (study.runs.empty() && !is_stability_kind(spec.kind))
+    table.fail("kind", "needs runs, and a study with [stability] has none");
   kind.read(table, study, spec);
   table.refuse_unknown_keys();
   return spec;
@@ -82,9 +86,9 @@ void evaluate_checks(StudyData& data) {
     kind_named(spec.kind, TomlTable::from_text("", data.study->name)).evaluate(spec, data, data.checks);
     for (std::size_t i = before; i < data.checks.size(); ++i)
       evidence.emplace_back(spec.claim, data.checks[i]);
-    fate_declared |= spec.kind == "divergence";
+    fate_declared |= spec.kind == "divergence" || spec.kind == "outcome";
   }
-  if (!fate_declared) data.checks.push_back(completion(data));
+  if (!fate_declared && !data.runs.empty()) data.checks.push_back(completion(data));
   for (const ClaimSpec& claim : data.study->claims) data.claims.push_back(judged(claim, data, evidence));
 }
 

@@ -66,7 +66,7 @@ double largest_difference(const RunData& run, const RunData& other, double t, Lo
       largest = worst(largest, std::abs(sample.across - match->across));
     }
   }
-  return largest / flow.velocity_scale();
+  return largest / flow.velocity_scale_at(t);
 }
 
 double mass_drift(const RunData& run) {

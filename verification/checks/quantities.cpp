@@ -2,7 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
+#include <optional>
+
+#include "verification/checks/oscillation.hpp"
+#include "verification/study/measures.hpp"
 
 namespace verification {
 namespace {
@@ -31,6 +37,17 @@ double settling_time(const RunData& run) {
   if (k == 0) return history.front().t;
   const double before = distance(history[k - 1]), after = distance(history[k]);
   return history[k - 1].t + (history[k].t - history[k - 1].t) * before / (before - after);
+}
+
+double energy_error(const RunData& run) {
+  if (!run.completed()) return nan;
+  double largest = 0;
+  for (const reports::HistoryRow& row : run.history) {
+    const double error = std::abs(row.kinetic_energy / row.kinetic_energy_exact - 1);
+    if (std::isnan(error)) return nan;
+    largest = std::max(largest, error);
+  }
+  return largest;
 }
 
 /// Shear rates (or viscosity ratios) of the cells at a time, from the resting plate up.
@@ -69,6 +86,135 @@ double asymmetry(const std::vector<double>& cells) {
   return largest / *std::ranges::max_element(cells);
 }
 
+// ---- free and driven oscillations of the probe
+
+std::optional<Oscillation> free_oscillation(const RunData& run) {
+  const auto expected = run.plan->scene.flow->oscillation();
+  if (!expected || expected->decay_rate == 0 || !run.completed()) return std::nullopt;
+  Signal signal;
+  for (const reports::HistoryRow& row : run.history) {
+    signal.t.push_back(row.t);
+    signal.value.push_back(row.probe);
+  }
+  return fit_damped_oscillation(signal, *expected);
+}
+
+double period_error(const RunData& run) {
+  const auto fit = free_oscillation(run);
+  return fit ? run.plan->scene.flow->oscillation()->angular_frequency / fit->angular_frequency - 1 : nan;
+}
+
+double decay_error(const RunData& run) {
+  const auto fit = free_oscillation(run);
+  return fit ? fit->decay_rate / run.plan->scene.flow->oscillation()->decay_rate - 1 : nan;
+}
+
+/// Complex amplitude of the probe over that of the exact solution, both fitted to the last period; NaN where
+/// there is none.
+std::complex<double> relative_amplitude(const RunData& run) {
+  const auto driven = run.plan->scene.flow->oscillation();
+  if (!driven || driven->decay_rate != 0 || !run.completed()) return nan;
+  const double omega = driven->angular_frequency, period = 2 * std::numbers::pi / omega;
+  const double begin = run.history.back().t - period * (1 + 1e-9);
+  if (begin < run.history.front().t - 1e-6 * period) return nan;
+  Signal measured, exact;
+  for (const reports::HistoryRow& row : run.history) {
+    if (row.t < begin) continue;
+    measured.t.push_back(row.t);
+    measured.value.push_back(row.probe);
+    exact.value.push_back(row.probe_exact);
+  }
+  exact.t = measured.t;
+  const auto ours = fit_harmonic(measured, omega), theirs = fit_harmonic(exact, omega);
+  return ours && theirs ? *ours / *theirs : nan;
+}
+
+// ---- density, pressure and places of the particles
+
+std::vector<const reports::StateRow*> states_at(const RunData& run, double t) {
+  std::vector<const reports::StateRow*> rows;
+  for (const reports::StateRow& row : run.state)
+    if (row.t == t && row.location == "particles") rows.push_back(&row);
+  return rows;
+}
+
+double pressure_error(const RunData& run, double t) {
+  const auto rows = states_at(run, t);
+  double sum = 0;
+  for (const reports::StateRow* row : rows) sum += std::pow(row->pressure - row->pressure_exact, 2);
+  return rows.empty()
+             ? nan
+             : std::sqrt(sum / static_cast<double>(rows.size())) / run.plan->scene.flow->pressure_scale();
+}
+
+double density_error(const RunData& run, double t) {
+  const auto rows = states_at(run, t);
+  double largest = rows.empty() ? nan : 0;
+  for (const reports::StateRow* row : rows) {
+    const double error = std::abs(row->density / row->density_exact - 1);
+    if (!(error <= largest)) largest = error;  // keeps a NaN
+  }
+  return largest;
+}
+
+/// Distance between two places along one direction, the short way round where it is periodic.
+double distance_along(double a, double b, double length, bool periodic) {
+  const double d = a - b;
+  return periodic ? std::abs(d - length * std::round(d / length)) : std::abs(d);
+}
+
+double path_error(const RunData& run, double t) {
+  const mpm::Scene& scene = run.plan->scene.scene;
+  const auto exact = run.plan->scene.flow->exact({t});
+  const auto rows = rows_at(run, t, Location::Particles);
+  if (rows.empty() || rows.size() != run.start.size()) return nan;
+  double largest = 0;
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    const auto place = exact->path(run.start[p], t);
+    if (!place) return nan;
+    const double distance =
+        std::hypot(distance_along(rows[p]->x, place->x(), scene.size.x(), scene.periodic(0)),
+                   distance_along(rows[p]->y, place->y(), scene.size.y(), scene.periodic(1)));
+    if (!(distance <= largest)) largest = distance;  // keeps a NaN
+  }
+  return largest / run.plan->scene.cell_size();
+}
+
+double velocity_error(const RunData& run, double t, Location location) {
+  for (const reports::ErrorRecord& error : run.errors)
+    if (error.t == t && error.location == name(location)) return error.l2;
+  return nan;
+}
+
+// ---- motion where there should be none
+
+/// Largest root mean square velocity of the particles between two fractions of the history [m/s].
+double largest_speed(const RunData& run, double from, double to) {
+  if (!run.completed() || run.history.size() < 2) return nan;
+  const double begin = run.history.front().t, span = run.history.back().t - begin;
+  double largest = 0;
+  for (const reports::HistoryRow& row : run.history) {
+    const double part = (row.t - begin) / span;
+    const double speed = std::sqrt(2 * row.kinetic_energy / row.mass);
+    if (part >= from && part <= to && !(speed <= largest)) largest = speed;  // keeps a NaN
+  }
+  return largest;
+}
+
+/// Largest |E(t)/E(middle) - 1| over the second half of the history.
+double energy_drift(const History& history) {
+  if (history.size() < 3) return nan;
+  const double middle = 0.5 * (history.front().t + history.back().t);
+  double reference = nan, largest = 0;
+  for (const reports::HistoryRow& row : history) {
+    if (row.t < middle) continue;
+    if (std::isnan(reference)) reference = row.kinetic_energy;
+    const double change = std::abs(row.kinetic_energy / reference - 1);
+    if (!(change <= largest)) largest = change;  // keeps a NaN
+  }
+  return largest;
+}
+
 struct Entry {
   const char *name, *unit;
   bool time, place;
@@ -84,6 +230,7 @@ const std::vector<Entry> entries = {
      [](const Quantity&, const RunData& r) {
        return r.completed() && !r.probe.empty() ? r.probe.back() : nan;
      }},
+    {"energy-error", "1", false, false, [](const Quantity&, const RunData& r) { return energy_error(r); }},
     {"velocity", "m/s", true, false,
      [](const Quantity& q, const RunData& r) { return interpolated(r.history, q.time); }},
     {"shear-rate", "1/s", true, true,
@@ -96,6 +243,30 @@ const std::vector<Entry> entries = {
      [](const Quantity& q, const RunData& r) { return smallest_spread(cells_at(r, q.time, rate)); }},
     {"shear-rate-asymmetry", "1", true, false,
      [](const Quantity& q, const RunData& r) { return asymmetry(cells_at(r, q.time, rate)); }},
+    {"period-error", "1", false, false, [](const Quantity&, const RunData& r) { return period_error(r); }},
+    {"decay-error", "1", false, false, [](const Quantity&, const RunData& r) { return decay_error(r); }},
+    {"amplitude-error", "1", false, false,
+     [](const Quantity&, const RunData& r) { return std::abs(relative_amplitude(r)) - 1; }},
+    {"phase-error", "rad", false, false,
+     [](const Quantity&, const RunData& r) { return std::arg(relative_amplitude(r)); }},
+    {"pressure-error", "1", true, false,
+     [](const Quantity& q, const RunData& r) { return pressure_error(r, q.time); }},
+    {"density-error", "1", true, false,
+     [](const Quantity& q, const RunData& r) { return density_error(r, q.time); }},
+    {"path-error", "cells", true, false,
+     [](const Quantity& q, const RunData& r) { return path_error(r, q.time); }},
+    {"grid-error", "1", true, false,
+     [](const Quantity& q, const RunData& r) { return velocity_error(r, q.time, Location::Grid); }},
+    {"particle-error", "1", true, false,
+     [](const Quantity& q, const RunData& r) { return velocity_error(r, q.time, Location::Particles); }},
+    {"largest-speed", "1", false, false,
+     [](const Quantity&, const RunData& r) {
+       return largest_speed(r, 0, 1) / r.plan->scene.flow->velocity_scale();
+     }},
+    {"speed-growth", "1", false, false,
+     [](const Quantity&, const RunData& r) { return largest_speed(r, 0.5, 1) / largest_speed(r, 0, 0.5); }},
+    {"energy-drift", "1", false, false,
+     [](const Quantity&, const RunData& r) { return r.completed() ? energy_drift(r.history) : nan; }},
 };
 
 const Entry& entry(const std::string& name) {

@@ -13,14 +13,30 @@ struct Quantity {
   double place = 0;  ///< distance from the resting plate as a fraction of the gap, for local quantities
 };
 
-/// Known names:
-///   settling-time    first time after which the probe stays within 1 % of its steady velocity (t99) [s]
-///   final-velocity   at the probe at the end of the run [m/s]
-///   velocity         at the probe at a time [m/s]
-///   shear-rate, viscosity-ratio   at a time and place, in the cell there [1/s, 1]
-///   shear-rate-rise  smallest increase from cell to cell, resting plate to moving plate, over the largest
-///   rate [1] shear-rate-spread   the same from the middle to either plate [1] shear-rate-asymmetry   largest
-///   |rate(y) - rate(H - y)| over the largest rate [1]
+/// Known names, one a line, with their units:
+///
+/// - settling-time [s]: first time after which the probe stays within 1 % of its steady velocity (t99)
+/// - final-velocity [m/s]: at the probe at the end of the run
+/// - velocity [m/s]: at the probe at a time
+/// - shear-rate [1/s], viscosity-ratio [1]: at a time, in the cell at a place
+/// - shear-rate-rise [1]: smallest increase from cell to cell, resting plate to moving plate, over the
+/// largest
+/// - shear-rate-spread [1]: the same from the middle to either plate
+/// - shear-rate-asymmetry [1]: largest |rate(y) - rate(H - y)| over the largest rate
+/// - period-error, decay-error [1]: of a free oscillation at the probe, fitted to its history, over the exact
+///   one minus 1
+/// - amplitude-error [1]: of a driven oscillation at the probe over its last period, over the exact one
+///   minus 1
+/// - phase-error [rad]: of the same, minus the exact one; positive when early
+/// - pressure-error [1]: root mean square over the particles at a time, relative to the flow's pressure scale
+/// - density-error [1]: largest |rho - exact|/exact over the particles at a time
+/// - path-error [cells]: largest distance of a particle from its exact place at a time
+/// - grid-error, particle-error [1]: relative L2 error of velocity at a time
+/// - largest-speed [1]: largest root mean square velocity of the particles over the history, relative to the
+///   velocity scale
+/// - speed-growth [1]: the same in the second half of the history over that in the first
+/// - energy-error [1]: largest |E/E_exact - 1| of the kinetic energy over the history
+/// - energy-drift [1]: largest relative change of the kinetic energy over the second half of the history
 const std::vector<std::string>& quantity_names();
 bool needs_time(const std::string& quantity);
 bool needs_place(const std::string& quantity);

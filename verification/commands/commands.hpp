@@ -19,17 +19,32 @@ struct RunOptions {
   std::vector<std::string> names;  ///< of studies, or paths of study files; empty: the suite
   std::string suite;               ///< "": full, or all that is named
   std::filesystem::path out = "results";
-  int jobs = 0;  ///< 0: as many as there are cores
+  int jobs = 0;           ///< 0: as many as there are cores
+  bool no_cache = false;  ///< leave the cache of finished runs alone
+  bool fresh = false;     ///< run everything, and replace what the cache holds
+  bool resume = false;    ///< `out` must hold a suite that was begun
   std::string command_line;
 };
 int run_command(const RunOptions& options);
 
 struct SceneOptions {
   std::filesystem::path scene, out;
+  bool no_figures = false;  ///< solve: leave the drawing to a later `report`
   std::string command_line;
 };
 int solve_command(const SceneOptions& options);
 int reference_command(const SceneOptions& options);
+
+/// How many simulations or figures are made at the same time: `asked`, or as many as there are cores for 0.
+int job_count(int asked);
+
+struct CompareOptions {
+  std::filesystem::path before, after;
+  double tolerance = 1e-9;  ///< relative change of errors and orders that is round-off
+  bool all = false;         ///< list every change
+};
+/// 0: nothing got worse beyond noise; 1: something did.
+int compare_command(const CompareOptions& options);
 
 int report_command(const std::filesystem::path& dir);
 

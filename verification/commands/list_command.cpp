@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "verification/commands/commands.hpp"
+#include "verification/study/scoreboard_reader.hpp"
 #include "verification/study/study_reader.hpp"
 
 namespace verification {
@@ -13,13 +14,14 @@ int list_command(const ListOptions& options) {
              "claim");
   double total = 0;
   long runs = 0;
-  for (const Study& study : read_studies(options.studies)) {
-    if (study.suite > suite) continue;
+  for (Study& study : read_studies(options.studies)) {
+    if (!restrict_to(study, suite)) continue;
     const double cost = study.particle_steps();
-    fmt::print("{:<30} {:<6} {:>5} {:>16.3g} {:>6.1f} s  {}\n", study.name, name(study.suite),
-               study.runs.size(), cost, cost / particle_steps_per_second, study.claim);
+    const std::size_t jobs = study.runs.size() + study.stability.cases.size();
+    fmt::print("{:<30} {:<6} {:>5} {:>16.3g} {:>6.1f} s  {}\n", study.name, name(study.suite), jobs, cost,
+               cost / particle_steps_per_second, study.claim);
     total += cost;
-    runs += static_cast<long>(study.runs.size());
+    runs += static_cast<long>(jobs);
   }
   fmt::print("{:<30} {:<6} {:>5} {:>16.3g} {:>6.1f} s  on one core at {:.0f} million particle-steps/s\n",
              "total", name(suite), runs, total, total / particle_steps_per_second,

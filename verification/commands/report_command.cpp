@@ -2,11 +2,12 @@
 
 #include "reports/report.hpp"
 #include "verification/commands/commands.hpp"
+#include "verification/flows/reference_store.hpp"
 
 namespace verification {
 
 int report_command(const std::filesystem::path& dir) {
-  const reports::ReportOutcome outcome = reports::write_report(dir);
+  const reports::ReportOutcome outcome = reports::write_report(dir, {cache_directory(), job_count(0)});
   for (const std::string& warning : outcome.warnings) fmt::print(stderr, "warning: {}\n", warning);
   fmt::print("{}: {} of {} checks pass; see {}\n", outcome.passed ? "PASS" : "FAIL", outcome.checks_passed,
              outcome.checks_passed + outcome.checks_failed, (dir / "report.html").string());

@@ -6,10 +6,14 @@
 #include "reports/atomic_file.hpp"
 #include "reports/console_table.hpp"
 #include "reports/report.hpp"
+#include "reports/scoreboard.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/provenance_of.hpp"
 #include "verification/commands/terminal.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/flows/reference_store.hpp"
+#include "verification/study/interruption.hpp"
+#include "verification/study/scoreboard_reader.hpp"
 #include "verification/study/study_reader.hpp"
 #include "verification/suite/run_suite.hpp"
 
@@ -23,7 +27,7 @@ std::vector<Study> chosen_studies(const RunOptions& options) {
   std::vector<Study> chosen;
   if (options.names.empty()) {
     for (Study& study : read_studies(options.studies))
-      if (study.suite <= suite) chosen.push_back(std::move(study));
+      if (restrict_to(study, suite)) chosen.push_back(std::move(study));
     return chosen;
   }
   for (const std::string& name : options.names) {
@@ -36,7 +40,7 @@ std::vector<Study> chosen_studies(const RunOptions& options) {
     Study study = read_study(file);
     if (std::ranges::any_of(chosen, [&](const Study& other) { return other.name == study.name; }))
       throw ConfigError("study '" + study.name + "' is named twice");
-    if (study.suite <= suite) chosen.push_back(std::move(study));
+    if (restrict_to(study, suite)) chosen.push_back(std::move(study));
   }
   return chosen;
 }
@@ -46,21 +50,40 @@ void print_study_line(const StudyData& data, bool colour) {
       std::ranges::count_if(data.checks, [](const auto& check) { return check.verdict != "pass"; });
   double wall = 0;
   for (const RunData& run : data.runs) wall += run.timing.wall_s;
+  for (const auto& timing : data.stability_timings) wall += timing.wall_s;
   const char* verdict =
       failed ? (colour ? "\033[31mFAIL\033[0m" : "FAIL") : (colour ? "\033[32mpass\033[0m" : "pass");
   fmt::print("{} {:<34} {:>4} of {:>4} checks {:>5} runs {:>8.2f} s\n", verdict, data.study->name,
-             data.checks.size() - static_cast<std::size_t>(failed), data.checks.size(), data.runs.size(),
-             wall);
+             data.checks.size() - static_cast<std::size_t>(failed), data.checks.size(),
+             data.runs.size() + data.stability_timings.size(), wall);
   std::fflush(stdout);
+}
+
+/// A suite can go on where it stopped if it was begun there and if finished runs are kept at all.
+void require_begun(const RunOptions& options, const RunCache& cache) {
+  if (!cache.on())
+    throw ConfigError(
+        "--resume goes on from the cache of finished runs, which is off: leave out --no-cache, or set "
+        "MPM_CACHE "
+        "to a directory");
+  if (options.fresh) throw ConfigError("--resume and --fresh contradict each other: give one of them");
+  if (!std::filesystem::exists(options.out / "provenance.json"))
+    throw ConfigError(options.out.string() + ": no suite was begun here; leave out --resume to begin one");
 }
 
 }  // namespace
 
+int job_count(int asked) {
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 int run_command(const RunOptions& options) {
   const std::vector<Study> studies = chosen_studies(options);
   if (studies.empty()) throw ConfigError("no study of that suite: nothing would be verified");
-  const int jobs =
-      options.jobs > 0 ? options.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int jobs = job_count(options.jobs);
+  const std::filesystem::path kept = options.no_cache ? std::filesystem::path() : cache_directory();
+  RunCache cache(kept, options.fresh ? CacheUse::Refresh : CacheUse::Reuse);
+  if (options.resume) require_begun(options, cache);
 
   SuiteListener listener;
   const bool progress = show_progress(), colour = use_colour();
@@ -76,11 +99,25 @@ int run_command(const RunOptions& options) {
   // Provenance first: an interrupted run still says what made its files.
   reports::ensure_directory(options.out);
   reports::write_provenance(options.out, provenance_of(options.command_line));
-  const SuiteOutcome outcome = run_suite(studies, options.out, jobs, listener);
-  const reports::ReportOutcome report = reports::write_report(options.out);
+  SuiteOutcome outcome;
+  try {
+    const InterruptionGuard guard;
+    outcome = run_suite(studies, options.out, jobs, cache, listener);
+  } catch (const Interrupted& stop) {
+    if (progress) fmt::print(stderr, "\r\033[K");
+    fmt::print(stderr, "mpm-verify: interrupted; {} holds the studies that had ended{}\n",
+               options.out.string(), cache.on() ? ", and the same command goes on from there" : "");
+    return 128 + stop.signal;
+  }
+  cache.prune();
+  const reports::ReportOutcome report = reports::write_report(options.out, {kept, jobs});
 
-  fmt::print("\n{}", reports::console_table(outcome.results.checks, colour));
+  const auto lines = reports::without_expected_outcomes(outcome.results);
+  fmt::print("\n{}", reports::console_table(lines, colour, outcome.results.checks.size() - lines.size()));
   for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (const std::string warning = cache.warning(); !warning.empty())
+    fmt::print(stderr, "warning: {}\n", warning);
+  fmt::print("runs: {}, of which {} taken from the cache\n", outcome.runs, outcome.from_cache);
   fmt::print("report: {}\n", (options.out / "report.html").string());
   if (!outcome.failures.empty()) {
     for (const std::string& failure : outcome.failures) fmt::print(stderr, "error: run {}\n", failure);

@@ -6,11 +6,15 @@
 #include "verification/commands/commands.hpp"
 #include "verification/commands/provenance_of.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/flows/reference_store.hpp"
 #include "verification/study/measures.hpp"
 #include "verification/study/run_simulation.hpp"
 
 namespace verification {
 namespace {
+
+/// One simulation is made again in a moment: waiting for the disk a dozen times would be most of its time.
+constexpr auto unsynced = reports::Durability::Unsynced;
 
 /// The single run of a scene file, as a study without checks.
 Study study_of_scene(const SceneOptions& options) {
@@ -50,7 +54,7 @@ void write_interchange(const std::filesystem::path& out, const RunData& data) {
   for (const reports::ProfileRow& row : data.profile)
     if (row.location != "exact")
       text += fmt::format("{},{},{},{},{},{}\n", row.t, row.location, row.x, row.y, row.u, row.v);
-  reports::write_file(out / "profile.csv", text);
+  reports::write_file(out / "profile.csv", text, unsynced);
 }
 
 }  // namespace
@@ -58,12 +62,13 @@ void write_interchange(const std::filesystem::path& out, const RunData& data) {
 int solve_command(const SceneOptions& options) {
   const Study study = study_of_scene(options);
   reports::ensure_directory(options.out / "profiles");
-  reports::write_provenance(options.out, provenance_of(options.command_line));
+  reports::write_provenance(options.out, provenance_of(options.command_line), unsynced);
   RunData data = run_simulation(study, study.runs.front());
   data.errors = measure_errors(data);
   reports::write_profile(options.out, data.record.run, data.profile);
   reports::write_history(options.out, data.record.run, data.history);
   if (!data.shear.empty()) reports::write_shear(options.out, data.record.run, data.shear);
+  if (!data.state.empty()) reports::write_state(options.out, data.record.run, data.state);
   write_interchange(options.out, data);
 
   reports::Results results;
@@ -74,9 +79,10 @@ int solve_command(const SceneOptions& options) {
   results.figures = {
       figure_of(study, "profiles", study.runs.front().scene.flow_name + ": velocity profiles"),
       figure_of(study, "history", study.runs.front().scene.flow_name + ": velocity at the probe")};
-  reports::write_results(options.out, results);
-  for (const std::string& warning : reports::write_figures(options.out))
-    fmt::print(stderr, "warning: {}\n", warning);
+  reports::write_results(options.out, results, unsynced);
+  if (!options.no_figures)
+    for (const std::string& warning : reports::write_figures(options.out, {cache_directory(), job_count(0)}))
+      fmt::print(stderr, "warning: {}\n", warning);
 
   fmt::print("{}: {}; {} particles, {} steps, {:.3g} s, {:.3g} particle-steps/s\n", data.record.run,
              data.record.status, data.record.particles, data.record.steps, data.timing.wall_s,
@@ -102,6 +108,8 @@ int reference_command(const SceneOptions& options) {
   reports::write_profile(options.out, study.name, exact_lines(scene, *exact));
   if (const auto shear = exact_shear(scene, *exact); !shear.empty())
     reports::write_shear(options.out, study.name, shear);
+  if (const auto state = exact_state(scene, *exact); !state.empty())
+    reports::write_state(options.out, study.name, state);
   fmt::print("{}: {}\n", study.name, exact->description());
   fmt::print("profiles at {} times: {}\n", scene.outputs.size(),
              (options.out / "profiles" / (study.name + ".csv")).string());

@@ -1,5 +1,7 @@
 #include "verification/config/scene_config.hpp"
 
+#include <algorithm>
+
 #include "verification/config/config_error.hpp"
 
 namespace verification {
@@ -52,6 +54,10 @@ mpm::Scheme read_scheme(TomlTable table) {
     if (!(scheme.flip_fraction >= 0 && scheme.flip_fraction <= 1))
       table.fail("flip_fraction", "must lie in [0, 1]");
   }
+  scheme.reset_every = table.integer("reset_every", 0);
+  if (scheme.reset_every < 0)
+    table.fail("reset_every", "must not be negative: steps between resets, 0 for none");
+  if (table.has("reset_strain")) scheme.reset_strain = table.positive("reset_strain");
   table.refuse_unknown_keys();
   return scheme;
 }
@@ -73,7 +79,7 @@ std::vector<double> read_outputs(TomlTable& table) {
   return outputs;
 }
 
-mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme) {
+mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme, const mpm::Scene& scene) {
   mpm::TimeStepRule rule;
   if (table.has("dt")) {
     rule.dt = table.positive("dt");
@@ -81,10 +87,18 @@ mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme) {
       if (table.has(key)) table.fail(key, "cannot stand beside dt: give either a step or its limits");
     return rule;
   }
+  if (table.has("cfl_acoustic") && table.has("cfl_viscous")) {
+    rule.cfl_acoustic = table.positive("cfl_acoustic");
+    rule.cfl_viscous = table.positive("cfl_viscous");
+    return rule;
+  }
+  try {
+    rule = mpm::automatic_time_step(scheme, scene);
+  } catch (const mpm::SceneError& error) {
+    table.fail("dt", error.what());
+  }
   rule.cfl_acoustic = table.positive("cfl_acoustic", rule.cfl_acoustic);
-  // Full mass is the stiffest (limits in solver/time_step.hpp).
-  const bool full_mass = scheme.transfer == mpm::Scheme::Transfer::FullMass;
-  rule.cfl_viscous = table.positive("cfl_viscous", full_mass ? 0.5 * rule.cfl_viscous : rule.cfl_viscous);
+  rule.cfl_viscous = table.positive("cfl_viscous", rule.cfl_viscous);
   return rule;
 }
 
@@ -97,7 +111,11 @@ const std::vector<std::string>& scene_tables() {
 
 std::vector<double> SceneConfig::reference_times() const {
   std::vector<double> times = outputs;
-  if (start > 0) times.insert(times.begin(), start);
+  if (start > 0) times.push_back(start);
+  times.insert(times.end(), more_reference_times.begin(), more_reference_times.end());
+  std::ranges::sort(times);
+  const auto repeated = std::ranges::unique(times);
+  times.erase(repeated.begin(), repeated.end());
   return times;
 }
 
@@ -134,15 +152,28 @@ SceneConfig read_scene_config(TomlTable root) {
     time.fail("start", "needs a flow with an exact solution");
   config.outputs = read_outputs(time);
   if (config.outputs.front() <= config.start) time.fail("outputs", "must lie beyond time.start");
-  config.time_step = read_time_step(time, config.scheme);
+  if (config.outputs.back() >= config.flow->latest())
+    time.fail("end", "must lie before the end of the solution: the flow collapses at its 1/rate");
+  if (time.has("reference_times")) config.more_reference_times = time.numbers("reference_times");
+  for (const double t : config.more_reference_times)
+    if (!(t > 0)) time.fail("reference_times", "must be positive");
   config.history_samples = time.integer("history_samples", 100);
   if (config.history_samples < 1) time.fail("history_samples", "must be at least 1");
+  try {
+    config.scene = config.flow->scene(config.discretisation);
+    config.scene.seeding = seeding;
+    config.scene.start = config.start;
+    config.scene.validate();
+  } catch (const mpm::SceneError& error) {
+    root.fail("scene", error.what());
+  }
+  if (config.start > 0 && config.scene.initial_density &&
+      !config.flow->exact({config.start})->density(Vec2::Zero(), config.start))
+    time.fail("start", "is for flows whose density is known at any time: this one starts at t = 0 only");
+  config.time_step = read_time_step(time, config.scheme, config.scene);
   time.refuse_unknown_keys();
   root.refuse_unknown_keys();
-  config.scene = config.flow->scene(config.discretisation);
-  config.scene.seeding = seeding;
   try {
-    config.scene.validate();
     config.segments = mpm::plan_segments(config.time_step, config.scene, config.outputs, config.start);
   } catch (const mpm::SceneError& error) {
     root.fail(config.time_step.dt > 0 ? "time.dt" : "scene", error.what());

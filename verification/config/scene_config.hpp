@@ -22,12 +22,14 @@ struct SceneConfig {
   mpm::Scheme scheme;
   mpm::TimeStepRule time_step;
   double start = 0;  ///< time at which the run starts, from the exact solution if not from rest [s]
-  std::vector<double> outputs;  ///< output times, increasing [s]
-  int history_samples = 0;      ///< points in the history, evenly spread over the run
-  mpm::Scene scene;             ///< the solver's scene that follows from all this
+  std::vector<double> outputs;               ///< output times, increasing [s]
+  std::vector<double> more_reference_times;  ///< time.reference_times [s]
+  int history_samples = 0;                   ///< points in the history, evenly spread over the run
+  mpm::Scene scene;                          ///< the solver's scene that follows from all this
   std::vector<mpm::Segment> segments;
 
-  /// Times at which the reference is wanted [s].
+  /// Times at which the reference is wanted [s], increasing: start, outputs, and those asked for besides, so
+  /// that scenes with different outputs can share one computed reference.
   [[nodiscard]] std::vector<double> reference_times() const;
   [[nodiscard]] long particles() const;
   [[nodiscard]] long steps() const;

@@ -23,6 +23,10 @@ double Flow::steady_probe() const {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+double Flow::pressure_scale() const {
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 double Flow::bias_unit(double) const {
   return std::numeric_limits<double>::quiet_NaN();
 }

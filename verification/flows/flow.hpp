@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,16 @@ class ExactField {
   [[nodiscard]] virtual Vec2 velocity(const Vec2& x, double t, Location location) const = 0;
   /// Shear rate |du/dy| of a channel [1/s]; none for other flows.
   [[nodiscard]] virtual std::optional<double> shear_rate(const Vec2&, double) const { return std::nullopt; }
+  /// Density [kg/m3] at a point; none where it is not of interest.
+  [[nodiscard]] virtual std::optional<double> density(const Vec2&, double) const { return std::nullopt; }
+  /// Where the fluid that is at `start` [m] at t = 0 is at time t [s], not wrapped into the box; none where
+  /// no closed form is known.
+  [[nodiscard]] virtual std::optional<Vec2> path(const Vec2& start, double t) const {
+    static_cast<void>(start), static_cast<void>(t);
+    return std::nullopt;
+  }
+  /// Kinetic energy of the whole scene per unit depth [J/m]; none where it is not known.
+  [[nodiscard]] virtual std::optional<double> kinetic_energy(double) const { return std::nullopt; }
   /// One line: what it is, and the error that it states for itself.
   [[nodiscard]] virtual std::string description() const = 0;
 };
@@ -43,6 +54,12 @@ class ExactField {
 struct Probe {
   Vec2 point;      ///< [m]
   Vec2 direction;  ///< unit vector
+};
+
+/// A motion exp(-decay_rate t) cos(angular_frequency t + phase).
+struct Oscillation {
+  double angular_frequency = 0;  ///< [rad/s]
+  double decay_rate = 0;         ///< [1/s]
 };
 
 /// A flow problem: what is solved, and what the answer is. Adding one: a class here, its reader in the table
@@ -73,8 +90,19 @@ class Flow {
     return nullptr;
   }
 
-  /// Velocity that errors are divided by [m/s].
+  /// Velocity that errors are divided by, unless it changes with time [m/s].
   [[nodiscard]] virtual double velocity_scale() const = 0;
+  /// Pressure that pressure errors are divided by [Pa]; NaN where there is none.
+  [[nodiscard]] virtual double pressure_scale() const;
+  /// How the probe oscillates: freely, or (decay rate 0) as it is driven; none for other flows.
+  [[nodiscard]] virtual std::optional<Oscillation> oscillation() const { return std::nullopt; }
+  /// Time before which a run must end [s], because the solution ends there.
+  [[nodiscard]] virtual double latest() const { return std::numeric_limits<double>::infinity(); }
+  /// The same at time t [s], for flows that decay or grow [m/s].
+  [[nodiscard]] virtual double velocity_scale_at(double t) const {
+    static_cast<void>(t);
+    return velocity_scale();
+  }
   /// Whether shear rate and viscosity across the flow are of interest (channels).
   [[nodiscard]] virtual bool has_shear_profile() const { return false; }
   /// Velocity at the probe in the steady state [m/s]; NaN where there is none.

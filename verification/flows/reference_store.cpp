@@ -8,7 +8,7 @@
 
 namespace verification {
 
-std::filesystem::path reference_cache_directory() {
+std::filesystem::path cache_directory() {
   if (const char* chosen = std::getenv("MPM_CACHE")) return chosen;
   if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg)
     return std::filesystem::path(xdg) / "mpm-verify";
@@ -33,7 +33,7 @@ std::shared_ptr<const reference::ChannelSolution> channel_solution(const referen
   }
   if (ours) {
     try {
-      promise.set_value(reference::make_channel_solution(problem, reference_cache_directory()));
+      promise.set_value(reference::make_channel_solution(problem, cache_directory()));
     } catch (...) {
       promise.set_exception(std::current_exception());
     }

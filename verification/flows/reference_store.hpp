@@ -7,9 +7,10 @@
 
 namespace verification {
 
-/// Where computed references are kept between runs: $MPM_CACHE, else $XDG_CACHE_HOME/mpm-verify, else
-/// ~/.cache/mpm-verify; empty (no cache) when MPM_CACHE is set to nothing or there is no home.
-std::filesystem::path reference_cache_directory();
+/// Where computed references, finished runs and drawn figures are kept: $MPM_CACHE, else
+/// $XDG_CACHE_HOME/mpm-verify, else ~/.cache/mpm-verify; empty (no cache) when MPM_CACHE is set to nothing or
+/// there is no home.
+std::filesystem::path cache_directory();
 
 /// The reference solution of a problem. Every problem is solved once a process, whoever asks; threads that
 /// ask while it is being solved wait for it.

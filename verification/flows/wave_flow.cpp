@@ -11,10 +11,13 @@ double wavenumber(const WaveParameters& parameters) {
 
 class AcousticField final : public ExactField {
  public:
-  AcousticField(int axis, std::shared_ptr<const reference::AcousticWave> wave)
-      : axis_(axis), wave_(std::move(wave)) {}
+  AcousticField(int axis, double density, std::shared_ptr<const reference::AcousticWave> wave)
+      : axis_(axis), density_(density), wave_(std::move(wave)) {}
   [[nodiscard]] Vec2 velocity(const Vec2& x, double t, Location) const override {
     return wave_->velocity(x[axis_], t) * unit(axis_);
+  }
+  [[nodiscard]] std::optional<double> density(const Vec2& x, double t) const override {
+    return density_ + wave_->density_perturbation(x[axis_], t);
   }
   [[nodiscard]] std::string description() const override {
     return "damped standing sound wave, linear theory";
@@ -22,6 +25,7 @@ class AcousticField final : public ExactField {
 
  private:
   int axis_;
+  double density_;  // at rest [kg/m3]
   std::shared_ptr<const reference::AcousticWave> wave_;
 };
 
@@ -32,6 +36,10 @@ class ShearField final : public ExactField {
     const auto v = wave_->velocity(x.x(), x.y(), t);
     return {v[0], v[1]};
   }
+  [[nodiscard]] std::optional<Vec2> path(const Vec2& start, double t) const override {
+    const auto x = wave_->path(start.x(), start.y(), t);
+    return Vec2(x[0], x[1]);
+  }
   [[nodiscard]] std::string description() const override {
     return "decaying shear wave, exact Navier-Stokes";
   }
@@ -41,6 +49,10 @@ class ShearField final : public ExactField {
 };
 
 }  // namespace
+
+std::shared_ptr<const ExactField> shear_wave_field(std::shared_ptr<const reference::ShearWave> wave) {
+  return std::make_shared<ShearField>(std::move(wave));
+}
 
 mpm::Scene periodic_box(const WaveParameters& parameters, const Discretisation& d) {
   const int across = parameters.axis, along = 1 - across;
@@ -71,7 +83,16 @@ mpm::Scene AcousticWaveFlow::scene(const Discretisation& discretisation) const {
 }
 
 std::shared_ptr<const ExactField> AcousticWaveFlow::exact(const std::vector<double>&) const {
-  return std::make_shared<AcousticField>(parameters_.axis, solution_);
+  return std::make_shared<AcousticField>(parameters_.axis, parameters_.fluid.density, solution_);
+}
+
+double AcousticWaveFlow::pressure_scale() const {
+  return parameters_.fluid.density * parameters_.fluid.sound_speed() * parameters_.amplitude;
+}
+
+std::optional<Oscillation> AcousticWaveFlow::oscillation() const {
+  if (solution_->angular_frequency() == 0) return std::nullopt;  // overdamped
+  return Oscillation{solution_->angular_frequency(), solution_->damping_rate()};
 }
 
 Probe AcousticWaveFlow::probe() const {
@@ -96,7 +117,7 @@ mpm::Scene ShearWaveFlow::scene(const Discretisation& discretisation) const {
 }
 
 std::shared_ptr<const ExactField> ShearWaveFlow::exact(const std::vector<double>&) const {
-  return std::make_shared<ShearField>(solution_);
+  return shear_wave_field(solution_);
 }
 
 Probe ShearWaveFlow::probe() const {

@@ -20,6 +20,9 @@ struct WaveParameters {
 /// Square cells, one wavelength across, `cells_along` the other way.
 mpm::Scene periodic_box(const WaveParameters& parameters, const Discretisation& discretisation);
 
+/// The velocity and the paths of a shear wave.
+std::shared_ptr<const ExactField> shear_wave_field(std::shared_ptr<const reference::ShearWave> wave);
+
 /// Damped standing sound wave u = U sin(k x) from uniform density: equation of state, density update, -2/3 mu
 /// tr(D).
 class AcousticWaveFlow final : public Flow {
@@ -28,6 +31,9 @@ class AcousticWaveFlow final : public Flow {
   [[nodiscard]] mpm::Scene scene(const Discretisation& discretisation) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const override;
   [[nodiscard]] double velocity_scale() const override { return parameters_.amplitude; }
+  /// rho0 c U, the pressure that goes with U in a sound wave.
+  [[nodiscard]] double pressure_scale() const override;
+  [[nodiscard]] std::optional<Oscillation> oscillation() const override;
   [[nodiscard]] Probe probe() const override;
   [[nodiscard]] int across() const override { return parameters_.axis; }
   [[nodiscard]] double length() const override { return parameters_.wavelength; }

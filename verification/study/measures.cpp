@@ -30,7 +30,7 @@ Norms difference_norms(const RunData& a, const RunData& b, double t, Location lo
   if (rows_a.size() == rows_b.size())
     for (std::size_t i = 0; i < rows_a.size(); ++i)
       differences.emplace_back(rows_a[i]->u - rows_b[i]->u, rows_a[i]->v - rows_b[i]->v);
-  return norms_or_nan(differences, a.plan->scene.flow->velocity_scale());
+  return norms_or_nan(differences, a.plan->scene.flow->velocity_scale_at(t));
 }
 
 /// GCI of the three finest levels and Eca-Hoekstra uncertainty of the probe velocity, relative to the scale.
@@ -61,7 +61,7 @@ void measure_ladder(StudyData& data, const std::string& variant, Location locati
   std::vector<double> steps, values;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     steps.push_back(runs[k]->plan->step);
-    if (ladder.axis == Axis::Space) {
+    if (ladder.axis != Axis::Time) {
       for (const reports::ErrorRecord& error : runs[k]->errors)
         if (error.t == t && error.location == name(location))
           values.push_back(verification::pick(error, norm));
@@ -71,7 +71,7 @@ void measure_ladder(StudyData& data, const std::string& variant, Location locati
   }
   OrderOptions options;
   options.floor = ladder.floor;
-  const OrderEstimate estimate = ladder.axis == Axis::Space
+  const OrderEstimate estimate = ladder.axis != Axis::Time
                                      ? estimate_order(steps, values, options)
                                      : estimate_order_from_differences(steps, values, options);
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -121,7 +121,7 @@ std::vector<reports::ErrorRecord> measure_errors(const RunData& run) {
       std::vector<Eigen::Vector2d> errors;
       for (const reports::ProfileRow* row : rows_at(run, t, location))
         errors.emplace_back(row->u - row->u_exact, row->v - row->v_exact);
-      const Norms norms = norms_or_nan(errors, run.plan->scene.flow->velocity_scale());
+      const Norms norms = norms_or_nan(errors, run.plan->scene.flow->velocity_scale_at(t));
       records.push_back({run.record.run, t, name(location), norms.l1, norms.l2, norms.linf});
     }
   }

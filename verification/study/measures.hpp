@@ -8,9 +8,9 @@ namespace verification {
 /// that was not reached, and a run without an exact solution, give NaN.
 std::vector<reports::ErrorRecord> measure_errors(const RunData& run);
 
-/// Fills levels and orders of a study with a ladder: against the exact solution in space, from successive
-/// differences on one mesh in time. Orders in space carry the GCI and the Eca-Hoekstra uncertainty of the
-/// probe velocity.
+/// Fills levels and orders of a study with a ladder: against the exact solution in space and Mach number,
+/// from successive differences on one mesh in time. Orders in space carry the GCI and the Eca-Hoekstra
+/// uncertainty of the probe velocity.
 void measure_orders(StudyData& data);
 
 /// The value of one norm.

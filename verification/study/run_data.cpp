@@ -16,7 +16,8 @@ reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long
           scene.particles(),
           scene.segments.front().dt,
           steps,
-          status};
+          status,
+          mpm::reset_name(scene.scheme)};
 }
 
 }  // namespace verification

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reports/records.hpp"
+#include "solver/linear_algebra.hpp"
 #include "verification/convergence/order.hpp"
 #include "verification/study/study.hpp"
 
@@ -18,6 +19,8 @@ struct RunData {
   std::vector<reports::ProfileRow> profile;
   std::vector<reports::HistoryRow> history;
   std::vector<reports::ShearRow> shear;  ///< channels only
+  std::vector<reports::StateRow> state;  ///< flows with an exact density only
+  mpm::VectorField start;     ///< where the particles were seeded, in the order of the profiles [m]
   std::vector<double> probe;  ///< streamwise grid velocity at the probe at each output reached [m/s]
   std::vector<reports::ErrorRecord> errors;
 
@@ -37,6 +40,9 @@ struct StudyData {
   std::vector<reports::CheckRecord> checks;
   std::vector<reports::ClaimRecord> claims;
   std::vector<reports::MatrixRecord> matrix;
+  std::vector<reports::ScoreRecord> scores;
+  std::vector<reports::StabilityRecord> stability;       ///< in the order of study->stability.cases
+  std::vector<reports::TimingRecord> stability_timings;  ///< one a case
 
   [[nodiscard]] std::vector<const RunData*> runs_of(const std::string& variant) const {
     std::vector<const RunData*> found;

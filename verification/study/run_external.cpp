@@ -4,12 +4,14 @@
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
 
 #include "reports/csv.hpp"
 #include "reports/io_error.hpp"
+#include "verification/study/interruption.hpp"
 #include "verification/study/run_simulation.hpp"
 
 namespace verification {
@@ -63,6 +65,9 @@ RunData run_external(const Study& study, const PlannedRun& plan, const std::file
   const auto begin = std::chrono::steady_clock::now();
   const int status = std::system(command.c_str());
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (status != -1 && WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM))
+    note_interruption(WTERMSIG(status));  // std::system() keeps a SIGINT of the terminal from us
+  throw_if_interrupted();
   if (status == -1 || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw std::runtime_error("the external solver failed; its output is in " + (folder / "log.txt").string());
 
@@ -83,8 +88,10 @@ RunData run_external(const Study& study, const PlannedRun& plan, const std::file
     data.profile.insert(data.profile.end(), rows.begin(), rows.end());
   }
   data.record = describe_run(study, plan, scene.steps(), "completed");
-  data.record.basis = data.record.transfer = data.record.stepping = "external";
-  data.timing = {plan.run, wall, nan};
+  data.record.basis = data.record.transfer = data.record.stepping = data.record.reset = "external";
+  data.timing.run = plan.run;
+  data.timing.wall_s = wall;
+  data.timing.particle_steps_per_s = nan;
   return data;
 }
 

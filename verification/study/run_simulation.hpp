@@ -5,7 +5,8 @@
 namespace verification {
 
 /// Runs one planned simulation with our solver and takes its profiles, history and timing. A run that breaks
-/// down is recorded ("diverged at t = ..."); its profiles end with the last output reached.
+/// down is recorded ("diverged at t = ..."); its profiles end with the last output reached. Throws
+/// Interrupted when a signal has come (interruption.hpp).
 RunData run_simulation(const Study& study, const PlannedRun& plan);
 
 /// What the study compares a scene with; null where nothing is known.
@@ -13,6 +14,9 @@ std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneC
 
 /// Shear rate and viscosity of the exact solution on the same points; empty but for channels.
 std::vector<reports::ShearRow> exact_shear(const SceneConfig& scene, const ExactField& exact);
+
+/// Density and pressure of the exact solution on its fine line; empty where it has no density.
+std::vector<reports::StateRow> exact_state(const SceneConfig& scene, const ExactField& exact);
 
 /// Fine exact lines at the output times, for figures and for `reference`.
 std::vector<reports::ProfileRow> exact_lines(const SceneConfig& scene, const ExactField& exact);

@@ -11,17 +11,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// All names of the parts, where the user lists none.
-std::vector<std::string> names_of(TomlTable& table, const std::string& key,
-                                  const std::vector<mpm::SchemePart>& parts) {
-  std::vector<std::string> known;
-  for (const mpm::SchemePart& part : parts) known.push_back(part.name);
-  const std::vector<std::string> names = table.has(key) ? table.texts(key) : known;
-  for (const std::string& name : names)
-    if (std::ranges::count(known, name) == 0) table.fail(key, "'" + name + "' is not known");
-  return names;
-}
-
 /// Smallest usable error of the ladder behind an order.
 double smallest_error(const StudyData& data, const reports::OrderRecord& order) {
   double smallest = nan;
@@ -45,11 +34,26 @@ std::string reason(const mpm::FormalOrder& formal, Axis axis) {
 
 }  // namespace
 
+std::vector<std::string> part_names(TomlTable& table, const std::string& key,
+                                    const std::vector<mpm::SchemePart>& parts) {
+  std::vector<std::string> known;
+  std::string list;
+  for (const mpm::SchemePart& part : parts) {
+    known.push_back(part.name);
+    list += (list.empty() ? "" : ", ") + part.name;
+  }
+  const std::vector<std::string> names = table.has(key) ? table.texts(key) : known;
+  for (const std::string& name : names)
+    if (std::ranges::count(known, name) == 0)
+      table.fail(key, "'" + name + "' is not known; choose from: " + list);
+  return names;
+}
+
 std::vector<MatrixEntry> read_matrix(TomlTable table) {
   std::vector<MatrixEntry> entries;
-  const auto bases = names_of(table, "basis", mpm::basis_parts());
-  const auto transfers = names_of(table, "transfer", mpm::transfer_parts());
-  const auto steppings = names_of(table, "stepping", mpm::stepping_parts());
+  const auto bases = part_names(table, "basis", mpm::basis_parts());
+  const auto transfers = part_names(table, "transfer", mpm::transfer_parts());
+  const auto steppings = part_names(table, "stepping", mpm::stepping_parts());
   const double flip_fraction = table.number("flip_fraction", mpm::Scheme{}.flip_fraction);
   table.refuse_unknown_keys();
   for (const std::string& basis : bases)

@@ -19,6 +19,11 @@ struct MatrixEntry {
   [[nodiscard]] std::string toml() const;
 };
 
+/// Names of parts listed under a key, all of them where it is absent; one that is not known is refused
+/// (ConfigError).
+std::vector<std::string> part_names(TomlTable& table, const std::string& key,
+                                    const std::vector<mpm::SchemePart>& parts);
+
 /// Reads [matrix]. Throws ConfigError.
 std::vector<MatrixEntry> read_matrix(TomlTable table);
 

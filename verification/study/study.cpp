@@ -27,6 +27,8 @@ std::string name(Axis axis) {
       return "space";
     case Axis::Time:
       return "time";
+    case Axis::Mach:
+      return "mach";
     default:
       return "none";
   }
@@ -35,6 +37,7 @@ std::string name(Axis axis) {
 double Study::particle_steps() const {
   double sum = 0;
   for (const PlannedRun& run : runs) sum += run.scene.particle_steps();
+  for (const StabilityCase& one : stability.cases) sum += stability.cost(one);
   return sum;
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reports/records.hpp"
 #include "verification/config/scene_config.hpp"
+#include "verification/stability/stability_plan.hpp"
+#include "verification/study/scoreboard.hpp"
 
 namespace verification {
 
@@ -24,13 +27,13 @@ struct PlannedRun {
   std::string run;      ///< unique name, safe as a file name
   std::string variant;  ///< "" where the study has none
   int level = 0;        ///< on the ladder, 0 the coarsest
-  double step = 0;      ///< refined quantity: h [m] or dt [s]
+  double step = 0;      ///< refined quantity: h [m], dt [s] or Mach number
   /// Order that theory gives its ladder, on the grid and on the particles.
   double theoretical = std::numeric_limits<double>::quiet_NaN(), theoretical_particles = theoretical;
   SceneConfig scene;
 };
 
-enum class Axis { None, Space, Time };
+enum class Axis { None, Space, Time, Mach };
 std::string name(Axis axis);
 
 /// How the levels of a study differ.
@@ -40,6 +43,7 @@ struct Ladder {
   bool formal_exponent = false;  ///< Space: dt_exponent follows from each scheme's formal orders
   double dt_exponent = 2;        ///< Space: dt = time.dt (cells[0]/cells)^dt_exponent
   std::vector<double> dt;        ///< Time: coarse to fine [s]
+  std::vector<double> mach;      ///< Mach: scene.amplitude over the speed of sound, falling
   double theoretical = std::numeric_limits<double>::quiet_NaN();            ///< order that theory gives
   double theoretical_particles = std::numeric_limits<double>::quiet_NaN();  ///< the same for the particles
 
@@ -51,14 +55,15 @@ struct CheckSpec {
   std::string kind;
   std::vector<std::string> variants;  ///< that it speaks of
   std::vector<Location> locations;
-  std::string norm;           ///< "l1", "l2", "linf"
-  std::vector<double> times;  ///< [s]
-  std::string level;          ///< "finest", "coarsest", "all", or the end of a run's name, e.g. "n20"
-  std::string against;        ///< variant to compare with
-  std::string quantity;       ///< conserved quantity, or one of checks/quantities.hpp
-  double tolerance = 0;       ///< half width of a band about each variant's own theory
-  double place = 0;           ///< fraction of the gap
-  std::string claim;          ///< that this check is evidence for; "" for none
+  std::string norm;            ///< "l1", "l2", "linf"
+  std::vector<double> times;   ///< [s]
+  std::string level;           ///< "finest", "coarsest", "all", or the end of a run's name, e.g. "n20"
+  std::string against;         ///< variant to compare with
+  std::string quantity;        ///< conserved quantity, or one of checks/quantities.hpp
+  double tolerance = 0;        ///< half width of a band about each variant's own theory
+  double place = 0;            ///< fraction of the gap
+  double stability_limit = 0;  ///< of nu dt/h^2, for chatter
+  std::string claim;           ///< that this check is evidence for; "" for none
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   std::string reason;
@@ -77,11 +82,16 @@ struct Study {
   std::string solver_command;  ///< of an external solver; "" for ours
   Ladder ladder;
   bool matrix = false;  ///< its variants are a [matrix] of schemes
+  /// Times that each run is simulated to measure what it costs, after a warm-up and with nothing else
+  /// running; 0: cost is not the point, and runs share the machine.
+  int repetitions = 0;
   std::vector<std::string> variants;
   std::vector<PlannedRun> runs;  ///< variant by variant, coarse to fine
+  StabilityPlan stability;       ///< in place of runs: limits to measure
   std::vector<CheckSpec> checks;
   std::vector<ClaimSpec> claims;
   std::vector<reports::FigureRecord> figures;
+  std::optional<Scoreboard> scoreboard;  ///< of a hard case
 
   [[nodiscard]] double particle_steps() const;
   /// Runs of one variant, coarse to fine.

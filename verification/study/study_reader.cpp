@@ -1,5 +1,7 @@
 #include "verification/study/study_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +10,7 @@
 #include "verification/config/config_error.hpp"
 #include "verification/study/figure_reader.hpp"
 #include "verification/study/scheme_matrix.hpp"
+#include "verification/study/scoreboard_reader.hpp"
 
 namespace verification {
 namespace {
@@ -38,8 +41,14 @@ Ladder read_ladder(TomlTable table, bool present, bool matrix) {
     ladder.dt = table.numbers("dt");
     require_ladder(table, "dt", ladder.dt, false);
     if (ladder.dt.size() < 3) table.fail("dt", "needs at least three levels: orders come from differences");
+  } else if (axis == "mach") {
+    ladder.axis = Axis::Mach;
+    if (matrix)
+      table.fail("axis", "\"mach\" is not for a [matrix], which judges schemes by their own orders");
+    ladder.mach = table.numbers("mach");
+    require_ladder(table, "mach", ladder.mach, false);
   } else {
-    table.fail("axis", "must be \"space\" or \"time\"");
+    table.fail("axis", "must be \"space\", \"time\" or \"mach\"");
   }
   // A matrix of schemes knows each scheme's own order.
   if (!matrix || table.has("theoretical"))
@@ -65,6 +74,12 @@ TomlTable at_level(const TomlTable& scene, const Ladder& ladder, int level, std:
   } else if (ladder.axis == Axis::Time) {
     result.set("time.dt", ladder.dt[i]);
     tag = "level" + std::to_string(level);
+  } else if (ladder.axis == Axis::Mach) {
+    // c = sqrt(7 K/rho0) = U/Ma
+    const double sound_speed = result.table("scene").positive("amplitude") / ladder.mach[i];
+    const double density = result.table("fluid").positive("density", mpm::Fluid{}.density);
+    result.set("fluid.bulk_modulus", density * sound_speed * sound_speed / 7);
+    tag = fmt::format("ma{:g}", ladder.mach[i]);
   }
   return result;
 }
@@ -85,6 +100,7 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
   const Ladder ladder = ladder_for(study, scene);
   const std::size_t levels = ladder.axis == Axis::Space  ? ladder.cells.size()
                              : ladder.axis == Axis::Time ? ladder.dt.size()
+                             : ladder.axis == Axis::Mach ? ladder.mach.size()
                                                          : 1;
   for (std::size_t level = 0; level < levels; ++level) {
     PlannedRun planned;
@@ -94,10 +110,23 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
     planned.theoretical = ladder.theoretical;
     planned.theoretical_particles = ladder.theoretical_particles;
     planned.level = static_cast<int>(level);
-    planned.step = ladder.axis == Axis::Time ? ladder.dt[level] : planned.scene.cell_size();
+    planned.step = ladder.axis == Axis::Time   ? ladder.dt[level]
+                   : ladder.axis == Axis::Mach ? ladder.mach[level]
+                                               : planned.scene.cell_size();
     planned.run = study.name + (variant.empty() ? "" : "." + variant) + (tag.empty() ? "" : "." + tag);
     study.runs.push_back(std::move(planned));
   }
+}
+
+/// A study of limits has schemes, and boxes of its own instead of a scene.
+void read_limits(Study& study, TomlTable& root) {
+  if (!study.matrix) root.fail("stability", "needs the [matrix] of schemes whose limits it measures");
+  for (const char* key : {"ladder", "solver", "variant", "compare_with"})
+    if (root.has(key)) root.fail(key, "has no meaning beside [stability]");
+  const std::vector<MatrixEntry> matrix = read_matrix(root.table("matrix"));
+  for (const MatrixEntry& entry : matrix) study.variants.push_back(entry.variant);
+  study.stability = read_stability(root.table("stability"), matrix);
+  study.stability.toml = root.restricted_to({"matrix", "stability"}).print();
 }
 
 void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
@@ -107,11 +136,10 @@ void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
       study.variants.push_back(entry.variant);
       plan_runs(study, base.overlaid_with(scheme, "scheme " + entry.variant), entry.variant);
     }
-    return;
   }
   std::vector<TomlTable> variants = root.tables("variant");
 
-  if (variants.empty()) {
+  if (variants.empty() && !study.matrix) {
     study.variants = {""};
     plan_runs(study, base, "");
     return;
@@ -203,20 +231,31 @@ Study read_study(const std::filesystem::path& file) {
   study.comparison = read_comparison(root);
   study.ladder = read_ladder(root.table("ladder"), root.has("ladder"), root.has("matrix"));
   study.matrix = root.has("matrix");
+  study.repetitions = root.integer("repetitions", 0);
+  if (study.repetitions < 0 || study.repetitions > 1000) root.fail("repetitions", "must lie in [0, 1000]");
   if (root.has("solver")) {
     TomlTable solver = root.table("solver");
     study.solver_command = solver.text("command");
     solver.refuse_unknown_keys();
   }
-  for (const std::string& key : scene_tables()) root.accept(key);
-  read_variants(study, root, root.restricted_to(scene_tables()));
-  require_comparable(root, study);
+  if (root.has("stability")) {
+    read_limits(study, root);
+  } else {
+    for (const std::string& key : scene_tables()) root.accept(key);
+    read_variants(study, root, root.restricted_to(scene_tables()));
+    require_comparable(root, study);
+    read_scoreboard(root, study);
+  }
   for (TomlTable& table : root.tables("check")) study.checks.push_back(read_check(table, study));
   if (study.checks.empty())
     root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");
   for (TomlTable& table : root.tables("statement")) study.claims.push_back(read_claim(table));
   require_evidence(root, study);
   for (TomlTable& table : root.tables("figure")) study.figures.push_back(read_figure(table, study));
+  if (!study.figures.empty() && study.scoreboard &&
+      !(study.scoreboard->in_full.empty() && study.scoreboard->in_quick.empty()))
+    root.fail("figure",
+              "cannot show a study of which a lesser suite runs a part; remove it, or in_full and in_quick");
   root.refuse_unknown_keys();
   return study;
 }

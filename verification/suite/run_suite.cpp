@@ -1,37 +1,27 @@
 #include "verification/suite/run_suite.hpp"
 
 #include <algorithm>
-#include <atomic>
+#include <chrono>
 #include <exception>
+#include <limits>
 #include <mutex>
-#include <numeric>
-#include <thread>
 
 #include "reports/atomic_file.hpp"
 #include "reports/io_error.hpp"
 #include "reports/result_files.hpp"
 #include "verification/checks/check_reader.hpp"
+#include "verification/study/interruption.hpp"
 #include "verification/study/measures.hpp"
 #include "verification/study/run_external.hpp"
 #include "verification/study/run_simulation.hpp"
 #include "verification/study/scheme_matrix.hpp"
+#include "verification/study/scores.hpp"
+#include "verification/suite/collect.hpp"
+#include "verification/suite/run_entry.hpp"
+#include "verification/suite/schedule.hpp"
 
 namespace verification {
 namespace {
-
-struct Job {
-  std::size_t study, run;
-  double cost;
-};
-
-std::vector<Job> longest_first(const std::vector<Study>& studies) {
-  std::vector<Job> jobs;
-  for (std::size_t s = 0; s < studies.size(); ++s)
-    for (std::size_t r = 0; r < studies[s].runs.size(); ++r)
-      jobs.push_back({s, r, studies[s].runs[r].scene.particle_steps()});
-  std::ranges::stable_sort(jobs, std::ranges::greater{}, &Job::cost);
-  return jobs;
-}
 
 /// A run that could not be simulated at all: recorded, so that the tables say so.
 RunData failed_run(const Study& study, const PlannedRun& plan, const std::string& why) {
@@ -42,162 +32,182 @@ RunData failed_run(const Study& study, const PlannedRun& plan, const std::string
   return data;
 }
 
-/// What the scenes of a study were declared not to need (DESIGN: model only what a scene needs).
-std::string left_out(const Study& study) {
-  const auto all = [&](auto&& holds) { return std::ranges::all_of(study.runs, holds); };
-  const auto any = [&](auto&& holds) { return std::ranges::any_of(study.runs, holds); };
-  const auto words = [&](auto&& holds, const std::string& what) {
-    return all(holds) ? what + "; " : any(holds) ? what + " (some variants); " : std::string();
-  };
-  std::string text =
-      words([](const PlannedRun& r) { return !r.scene.fluid.solver.pressure; }, "pressure and density");
-  text += words([](const PlannedRun& r) { return r.scene.discretisation.cells_along == 1; },
-                "variation along the flow (one periodic cell)");
-  text +=
-      words([](const PlannedRun& r) { return r.scene.fluid.label == "newtonian"; }, "shear rate (Newtonian)");
-  return text.empty() ? "nothing" : text.substr(0, text.size() - 2);
-}
-
-/// Figures in the order of their numbers, conclusions after them.
-int place_in_paper(const reports::ClaimRecord& claim) {
-  const std::size_t digit = claim.source.find_first_of("0123456789");
-  const int number = digit == std::string::npos ? 0 : std::stoi(claim.source.substr(digit));
-  return claim.source.starts_with("Fig") ? number : 1000 + number;
+/// Keeps a part of a suite from passing for the whole.
+reports::CheckRecord unfinished(long done, long total) {
+  return {"suite",
+          "runs that ended",
+          static_cast<double>(done),
+          static_cast<double>(total),
+          static_cast<double>(total),
+          "1",
+          "fail",
+          "the suite was stopped: only the studies that had ended are here; run it again to go on"};
 }
 
 class SuiteRunner {
  public:
-  SuiteRunner(const std::vector<Study>& studies, std::filesystem::path out, const SuiteListener& listener)
-      : studies_(studies), out_(std::move(out)), listener_(listener), jobs_(longest_first(studies)) {
+  SuiteRunner(const std::vector<Study>& studies, std::filesystem::path out, RunCache& cache,
+              const SuiteListener& listener)
+      : studies_(studies), out_(std::move(out)), cache_(cache), listener_(listener) {
     for (const Study& study : studies) {
       StudyData data;
       data.study = &study;
       data.runs.resize(study.runs.size());
       data_.push_back(std::move(data));
-      remaining_.push_back(study.runs.size());
+      limits_.emplace_back(study.stability.cases.size());
+      remaining_.push_back(study.runs.size() + study.stability.cases.size());
+      outcome_.runs += static_cast<long>(remaining_.back());
     }
   }
 
   SuiteOutcome run(int threads) {
     reports::ensure_directory(out_ / "profiles");
     reports::ensure_directory(out_ / "scenes");
-    std::vector<std::jthread> pool;
-    for (int i = 1; i < threads; ++i) pool.emplace_back([this] { work(); });
-    work();
-    pool.clear();
-    SuiteOutcome outcome{collect(), failures_};
-    std::ranges::sort(outcome.failures);
-    if (stop_cause_) {
+    reports::remove_tables(out_);
+    const Schedule jobs = schedule(studies_);
+    const auto perform_job = [this](const Job& job) { job.measures_limit ? measure(job) : perform(job); };
+    std::exception_ptr stopped = perform_all(jobs.shared, threads, perform_job);
+    if (!stopped) stopped = perform_all(jobs.alone, 1, perform_job);
+
+    outcome_.results = collect(ended_studies());
+    std::ranges::sort(outcome_.failures);
+    if (stopped) {
+      outcome_.results.checks.push_back(unfinished(done_, outcome_.runs));
       try {
-        reports::write_results(out_, outcome.results);
+        reports::write_results(out_, outcome_.results);
       } catch (const reports::IoError&) {
         // The first failure is the one to report; what was written before it stays.
       }
-      std::rethrow_exception(stop_cause_);
+      std::rethrow_exception(stopped);
     }
-    reports::write_results(out_, outcome.results);
-    return outcome;
+    reports::write_results(out_, outcome_.results);
+    return outcome_;
   }
 
  private:
-  void work() {
-    while (!stopped_) {
-      const std::size_t next = next_++;
-      if (next >= jobs_.size()) return;
-      try {
-        perform(jobs_[next]);
-      } catch (...) {
-        const std::scoped_lock lock(mutex_);
-        if (!stop_cause_) stop_cause_ = std::current_exception();
-        stopped_ = true;
-      }
-    }
-  }
-
   void perform(const Job& job) {
+    throw_if_interrupted();
     const Study& study = studies_[job.study];
     const PlannedRun& plan = study.runs[job.run];
-    reports::write_file(out_ / "scenes" / (plan.run + ".toml"), plan.scene.toml);
-    RunData data = simulate(study, plan);
+    reports::keep_file(out_ / "scenes" / (plan.run + ".toml"), plan.scene.toml);
+    std::optional<RunData> kept = cache_.load(study, plan);
+    const bool from_cache = kept.has_value();
+    RunData data = kept ? std::move(*kept) : simulate(study, plan);
+    data.errors = measure_errors(data);
     reports::write_profile(out_, plan.run, data.profile);
     reports::write_history(out_, plan.run, data.history);
     if (!data.shear.empty()) reports::write_shear(out_, plan.run, data.shear);
+    if (!data.state.empty()) reports::write_state(out_, plan.run, data.state);
 
     const std::scoped_lock lock(mutex_);
     data_[job.study].runs[job.run] = std::move(data);
-    if (listener_.run_ended) listener_.run_ended(++done_, static_cast<long>(jobs_.size()), plan.run);
+    outcome_.from_cache += from_cache;
+    ++done_;
+    if (listener_.run_ended) listener_.run_ended(done_, outcome_.runs, plan.run);
     if (--remaining_[job.study] == 0) conclude(data_[job.study]);
   }
 
-  RunData simulate(const Study& study, const PlannedRun& plan) {
-    RunData data;
+  /// A case of a [stability].
+  void measure(const Job& job) {
+    throw_if_interrupted();
+    const Study& study = studies_[job.study];
+    const StabilityCase& one = study.stability.cases[job.run];
+    reports::TimingRecord timing;
+    timing.run = study.name + "." + one.name();
+    timing.particle_steps_per_s = std::numeric_limits<double>::quiet_NaN();
+    const auto kept = cache_.load(study.stability.content(one));
+    std::optional<MeasuredLimits> limits = kept ? decode_limits(*kept, study.name) : std::nullopt;
+    const bool from_cache = limits.has_value();
+    if (from_cache)
+      timing.source = reports::timing_from_cache;
+    else
+      limits = limits_of(study, one, timing.run);
+    timing.wall_s = limits->wall_s;
+
+    const std::scoped_lock lock(mutex_);
+    StudyData& data = data_[job.study];
+    limits_[job.study][job.run] = std::move(limits->records);
+    data.stability_timings.push_back(timing);
+    outcome_.from_cache += from_cache;
+    ++done_;
+    if (listener_.run_ended) listener_.run_ended(done_, outcome_.runs, timing.run);
+    if (--remaining_[job.study] > 0) return;
+    for (const auto& of_case : limits_[job.study])
+      data.stability.insert(data.stability.end(), of_case.begin(), of_case.end());
+    std::ranges::sort(data.stability_timings, {}, &reports::TimingRecord::run);
+    conclude(data);
+  }
+
+  MeasuredLimits limits_of(const Study& study, const StabilityCase& one, const std::string& run) {
+    const auto begin = std::chrono::steady_clock::now();
     try {
-      data = study.solver_command.empty() ? run_simulation(study, plan) : run_external(study, plan, out_);
+      MeasuredLimits limits{measure_case(study.name, study.stability, one), 0};
+      limits.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      cache_.save(study.stability.content(one), encode_limits(limits));
+      return limits;
+    } catch (const std::exception& error) {
+      const std::scoped_lock lock(mutex_);
+      outcome_.failures.push_back(run + ": " + error.what());
+      return {};
+    }
+  }
+
+  RunData simulate(const Study& study, const PlannedRun& plan) {
+    try {
+      RunData data =
+          study.solver_command.empty() ? run_simulation(study, plan) : run_external(study, plan, out_);
+      cache_.save(study, data);
+      return data;
     } catch (const reports::IoError&) {
       throw;
+    } catch (const Interrupted&) {
+      throw;
     } catch (const std::exception& error) {
-      data = failed_run(study, plan, error.what());
       const std::scoped_lock lock(mutex_);
-      failures_.push_back(plan.run + ": " + error.what());
+      outcome_.failures.push_back(plan.run + ": " + error.what());
+      return failed_run(study, plan, error.what());
     }
-    data.errors = measure_errors(data);
-    return data;
   }
 
   void conclude(StudyData& data) {
     measure_orders(data);
     evaluate_checks(data);
     data.matrix = matrix_records(data);
+    data.scores = score_records(data);
     for (RunData& run : data.runs) {
       run.profile = {};  // on disk by now; a suite would hold gigabytes otherwise
       run.history = {};
       run.shear = {};
+      run.state = {};
+      run.start = {};
     }
     if (listener_.study_ended) listener_.study_ended(data);
   }
 
-  [[nodiscard]] reports::Results collect() const {
-    reports::Results results;
-    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-    for (std::size_t s = 0; s < studies_.size(); ++s) {
-      if (remaining_[s] > 0) continue;
-      const Study& study = studies_[s];
-      results.studies.push_back({study.name, study.title, study.claim, name(study.suite), left_out(study)});
-      for (const RunData& run : data_[s].runs) {
-        results.runs.push_back(run.record);
-        results.timings.push_back(run.timing);
-        append(results.errors, run.errors);
-      }
-      append(results.levels, data_[s].levels);
-      append(results.orders, data_[s].orders);
-      append(results.checks, data_[s].checks);
-      append(results.claims, data_[s].claims);
-      append(results.matrix, data_[s].matrix);
-      append(results.figures, study.figures);
-    }
-    std::ranges::stable_sort(results.claims, {}, place_in_paper);
-    return results;
+  [[nodiscard]] std::vector<const StudyData*> ended_studies() const {
+    std::vector<const StudyData*> ended;
+    for (std::size_t s = 0; s < data_.size(); ++s)
+      if (remaining_[s] == 0) ended.push_back(&data_[s]);
+    return ended;
   }
 
   const std::vector<Study>& studies_;
   std::filesystem::path out_;
+  RunCache& cache_;
   const SuiteListener& listener_;
-  std::vector<Job> jobs_;
   std::vector<StudyData> data_;
+  std::vector<std::vector<std::vector<reports::StabilityRecord>>> limits_;  // by study and case
   std::vector<std::size_t> remaining_;
-  std::vector<std::string> failures_;
-  std::atomic<std::size_t> next_{0};
-  std::atomic<bool> stopped_{false};
+  SuiteOutcome outcome_;
   std::mutex mutex_;
   long done_ = 0;
-  std::exception_ptr stop_cause_;
 };
 
 }  // namespace
 
 SuiteOutcome run_suite(const std::vector<Study>& studies, const std::filesystem::path& out, int jobs,
-                       const SuiteListener& listener) {
-  return SuiteRunner(studies, out, listener).run(std::max(1, jobs));
+                       RunCache& cache, const SuiteListener& listener) {
+  return SuiteRunner(studies, out, cache, listener).run(std::max(1, jobs));
 }
 
 }  // namespace verification

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "verification/study/run_data.hpp"
+#include "verification/suite/run_cache.hpp"
 
 namespace verification {
 
@@ -18,14 +19,20 @@ struct SuiteListener {
 struct SuiteOutcome {
   reports::Results results;  ///< in the order of the studies, whatever the number of jobs
   std::vector<std::string>
-      failures;  ///< runs that could not be simulated at all: an error of solver or program
+      failures;         ///< runs that could not be simulated at all: an error of solver or program
+  long runs = 0;        ///< simulations, and
+  long from_cache = 0;  ///< how many of them were taken over from the cache
 };
 
 /// Runs every simulation of the studies on `jobs` threads, longest first, and writes DIR: each run's scene,
-/// profile and history as soon as it ends, the tables at the end. Results do not depend on `jobs`. Throws
-/// reports::IoError when DIR cannot be written; the tables of the studies that had ended are then written if
-/// at all possible.
+/// profile and history as soon as it ends, the tables at the end. Runs that the cache holds are taken over;
+/// the others are added to it as they end, so that a suite that was stopped or killed goes on where it was.
+/// Results do not depend on `jobs` or on the cache, except for timing.csv, which says of each time whether it
+/// was measured in this run. Tables of an earlier suite in DIR go first: a DIR without checks.csv is one
+/// whose suite did not end. Throws reports::IoError when DIR cannot be written, and Interrupted on SIGINT and
+/// SIGTERM (while an InterruptionGuard is alive); the tables of the studies that had ended are then written
+/// if at all possible, with a failed check that says so.
 SuiteOutcome run_suite(const std::vector<Study>& studies, const std::filesystem::path& out, int jobs,
-                       const SuiteListener& listener);
+                       RunCache& cache, const SuiteListener& listener);
 
 }  // namespace verification

@@ -1,0 +1,259 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "solver/kernel/kernel.hpp"
+#include "solver/kernel/lanes.hpp"
+#include "solver/kernel/storage.hpp"
+
+namespace mpm::MPM_ISA {
+
+/// Particles of `width` neighbouring cells, one of each. An empty lane has no mass and rests in its cell.
+struct Slot {
+  Lanes x[2], v[2];    ///< position [m], velocity [m/s]
+  Lanes mass, volume;  ///< per unit depth [kg/m], [m2]; both zero in an empty lane
+  Lanes stress[3];     ///< sigma_00, sigma_11, sigma_01 [Pa]
+};
+
+/// What a slot's particles were called when they came.
+struct Names {
+  int of[width];
+};
+
+/// `width` neighbouring cells and their particles: those of a cell fill the first slots of its lane.
+struct Block {
+  int first_node;               ///< of the first cell
+  int count[width] = {};        ///< particles a cell
+  Lanes cell[2];                ///< number of the cell along each axis
+  const Lanes* polynomials[2];  ///< of the basis in these cells: Axis::polynomials across lanes
+  std::size_t first_slot;       ///< in the store of all slots
+  int size = 0, capacity = 0;   ///< slots in use, slots reserved
+};
+
+struct Address {
+  int block, lane, slot;
+};
+
+/// All particles, sorted by cell. Cells are numbered like their first nodes, n = row * stride + i; the
+/// numbers between rows belong to no cell and stay empty, so that a block may run on into the next row.
+class Cells {
+ public:
+  explicit Cells(const KernelSetup& setup)
+      : axis_(setup.axis), stride_(setup.axis[0].cells + setup.degree), degree_(setup.degree) {
+    blocks_.resize(static_cast<std::size_t>((stride_ * axis_[1].cells + width - 1) / width));
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      Block& block = blocks_[b];
+      block.first_node = static_cast<int>(b) * width;
+      for (int lane = 0; lane < width; ++lane) {
+        const int n = block.first_node + lane;
+        // Numbers that belong to no cell take the nearest, so that their arithmetic stays harmless.
+        block.cell[0][lane] = std::min(n % stride_, axis_[0].cells - 1);
+        block.cell[1][lane] = std::min(n / stride_, axis_[1].cells - 1);
+      }
+      for (int a : {0, 1}) block.polynomials[a] = polynomials_across(block, a);
+    }
+    for (std::size_t p = 0; p < setup.count; ++p) {
+      const int number = number_of_cell(setup.points[p].position);
+      Block& block = blocks_[static_cast<std::size_t>(number / width)];
+      block.capacity = std::max(block.capacity, ++block.count[number % width]);
+    }
+    for (Block& block : blocks_) std::fill(block.count, block.count + width, 0);
+    store_anew();
+    for (std::size_t p = 0; p < setup.count; ++p) {
+      const PointState& point = setup.points[p];
+      const Address to = add(number_of_cell(point.position));
+      name_at(to) = static_cast<int>(p);
+      Slot& slot = slot_at(to);
+      for (int c : {0, 1}) {
+        slot.x[c][to.lane] = point.position[c];
+        slot.v[c][to.lane] = point.velocity[c];
+      }
+      slot.mass[to.lane] = point.mass;
+      slot.volume[to.lane] = point.mass / point.density;
+      for (int c : {0, 1, 2}) slot.stress[c][to.lane] = point.stress[c];
+    }
+  }
+
+  [[nodiscard]] int stride() const { return stride_; }
+  [[nodiscard]] int count() const { return static_cast<int>(blocks_.size()) * width; }
+  /// The block that begins with a cell.
+  [[nodiscard]] const Block& block(int cell) const { return blocks_[static_cast<std::size_t>(cell / width)]; }
+  [[nodiscard]] std::span<Slot> slots(const Block& block) {
+    return {slots_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
+  }
+  [[nodiscard]] std::span<const Slot> slots(const Block& block) const {
+    return {slots_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
+  }
+
+  /// Puts particles that left their cell into the one where they are, around periodic sides. `movers` in the
+  /// order of their addresses. False when one is outside the domain or nowhere: those stay where they were.
+  [[nodiscard]] bool rehouse(const std::vector<Address>& movers) {
+    bool inside = true;
+    // Backwards, so that filling a gap from the end of a lane never moves one that is still to come.
+    for (auto mover = movers.rbegin(); mover != movers.rend(); ++mover) {
+      Slot& slot = slot_at(*mover);
+      double position[2];
+      bool here = true;
+      for (int a : {0, 1}) {
+        position[a] = slot.x[a][mover->lane];
+        here &= contain(axis_[static_cast<std::size_t>(a)], position[a]);
+        if (here) slot.x[a][mover->lane] = position[a];
+      }
+      inside &= here;
+      if (!here) continue;
+      const int number = number_of_cell(position);
+      if (number == mover->block * width + mover->lane) continue;
+      const Address to = add(number);
+      copy(*mover, to);
+      remove(*mover);
+    }
+    return inside;
+  }
+
+  /// Writes all particles under their names.
+  void gather(PointState* points) const {
+    for (const Block& block : blocks_)
+      for (int lane = 0; lane < width; ++lane)
+        for (int k = 0; k < block.count[lane]; ++k) {
+          const std::size_t at = block.first_slot + static_cast<std::size_t>(k);
+          const Slot& slot = slots_[at];
+          points[names_[at].of[lane]] = {{slot.x[0][lane], slot.x[1][lane]},
+                                         {slot.v[0][lane], slot.v[1][lane]},
+                                         slot.mass[lane],
+                                         slot.mass[lane] / slot.volume[lane],
+                                         {slot.stress[0][lane], slot.stress[1][lane], slot.stress[2][lane]}};
+        }
+  }
+
+ private:
+  /// As Axis::contain.
+  static bool contain(const LineOfCells& axis, double& x) {
+    if (x >= 0 && x <= axis.length) return true;
+    if (!axis.periodic || !(x - x == 0)) return false;  // x - x: not finite
+    x -= axis.length * std::floor(x / axis.length);
+    return x >= 0 && x <= axis.length;
+  }
+
+  [[nodiscard]] int number_of_cell(const double position[2]) const {
+    int cell[2];
+    for (int a : {0, 1}) {
+      const LineOfCells& axis = axis_[static_cast<std::size_t>(a)];
+      cell[a] = std::clamp(static_cast<int>(position[a] * axis.inverse_h), 0, axis.cells - 1);
+    }
+    return cell[1] * stride_ + cell[0];
+  }
+
+  Block& block_at(const Address& at) { return blocks_[static_cast<std::size_t>(at.block)]; }
+  std::size_t place_of(const Address& at) {
+    return block_at(at).first_slot + static_cast<std::size_t>(at.slot);
+  }
+  Slot& slot_at(const Address& at) { return slots_[place_of(at)]; }
+  int& name_at(const Address& at) { return names_[place_of(at)].of[at.lane]; }
+
+  /// Makes room for one more particle in a cell.
+  Address add(int number) {
+    Address at{number / width, number % width, 0};
+    Block& block = block_at(at);
+    at.slot = block.count[at.lane]++;
+    if (at.slot == block.size) {
+      if (block.size == block.capacity) grow(block);
+      ++block.size;
+      slot_at(at) = empty_slot(block);
+    }
+    return at;
+  }
+
+  /// Moves a block to the end of the store with room to spare; when the end is reached, everything moves.
+  [[gnu::noinline]] void grow(Block& block) {
+    block.capacity = 2 * std::max(1, block.capacity);
+    if (end_ + static_cast<std::size_t>(block.capacity) > slots_.size()) return store_anew();
+    std::copy_n(slots_.begin() + static_cast<std::ptrdiff_t>(block.first_slot), block.size,
+                slots_.begin() + static_cast<std::ptrdiff_t>(end_));
+    std::copy_n(names_.begin() + static_cast<std::ptrdiff_t>(block.first_slot), block.size,
+                names_.begin() + static_cast<std::ptrdiff_t>(end_));
+    block.first_slot = end_;
+    end_ += static_cast<std::size_t>(block.capacity);
+  }
+
+  /// A new store of all slots in the order of blocks, with a quarter more for blocks that grow.
+  [[gnu::noinline]] void store_anew() {
+    std::size_t total = 0;
+    for (const Block& block : blocks_) total += static_cast<std::size_t>(block.capacity);
+    LargeArray<Slot> slots(total + total / 4 + 16);
+    LargeArray<Names> names(slots.size());
+    end_ = 0;
+    for (Block& block : blocks_) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(block.size); ++k) {
+        slots[end_ + k] = slots_[block.first_slot + k];
+        names[end_ + k] = names_[block.first_slot + k];
+      }
+      block.first_slot = end_;
+      end_ += static_cast<std::size_t>(block.capacity);
+    }
+    slots_.swap(slots);
+    names_.swap(names);
+  }
+
+  /// The lane's last particle takes the place of the one that goes; slots that no lane uses are dropped.
+  void remove(const Address& at) {
+    Block& block = block_at(at);
+    const Address last{at.block, at.lane, --block.count[at.lane]};
+    if (last.slot != at.slot) copy(last, at);
+    copy_lane(empty_slot(block), slot_at(last), at.lane, at.lane);
+    block.size = *std::max_element(block.count, block.count + width);
+  }
+
+  void copy(const Address& from, const Address& to) {
+    copy_lane(slot_at(from), slot_at(to), from.lane, to.lane);
+    name_at(to) = name_at(from);
+  }
+
+  static void copy_lane(const Slot& from, Slot& to, int from_lane, int to_lane) {
+    for (int c : {0, 1}) {
+      to.x[c][to_lane] = from.x[c][from_lane];
+      to.v[c][to_lane] = from.v[c][from_lane];
+    }
+    to.mass[to_lane] = from.mass[from_lane];
+    to.volume[to_lane] = from.volume[from_lane];
+    for (int c : {0, 1, 2}) to.stress[c][to_lane] = from.stress[c][from_lane];
+  }
+
+  [[nodiscard]] Slot empty_slot(const Block& block) const {
+    Slot slot;
+    for (int c : {0, 1}) {
+      slot.x[c] = (block.cell[c] + 0.5) / Lanes(axis_[static_cast<std::size_t>(c)].inverse_h);
+      slot.v[c] = 0;
+    }
+    slot.mass = slot.volume = 0;
+    for (Lanes& s : slot.stress) s = 0;
+    return slot;
+  }
+
+  /// Polynomials of a block's cells along an axis. Most blocks share theirs with others.
+  const Lanes* polynomials_across(const Block& block, int a) {
+    const int size = (degree_ + 1) * (degree_ + 1);
+    std::vector<Lanes> across(static_cast<std::size_t>(size));
+    for (int m = 0; m < size; ++m)
+      for (int lane = 0; lane < width; ++lane)
+        across[static_cast<std::size_t>(m)][lane] =
+            axis_[static_cast<std::size_t>(a)].polynomials[static_cast<int>(block.cell[a][lane]) * size + m];
+    for (const auto& known : polynomials_)
+      if (std::memcmp(known.data(), across.data(), across.size() * sizeof(Lanes)) == 0) return known.data();
+    polynomials_.push_back(std::move(across));
+    return polynomials_.back().data();
+  }
+
+  std::array<LineOfCells, 2> axis_;
+  int stride_, degree_;
+  std::vector<Block> blocks_;
+  LargeArray<Slot> slots_;  // of one block after another
+  LargeArray<Names> names_;
+  std::size_t end_ = 0;  // of the slots that blocks have reserved
+  std::vector<std::vector<Lanes>> polynomials_;
+};
+
+}  // namespace mpm::MPM_ISA

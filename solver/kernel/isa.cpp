@@ -1,0 +1,94 @@
+#include "solver/kernel/isa.hpp"
+
+#include <cstdlib>
+#include <mutex>
+
+#include "solver/scene.hpp"
+
+namespace mpm {
+
+namespace baseline {
+std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
+}
+#ifdef MPM_KERNEL_AVX2
+namespace avx2 {
+std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
+}
+#endif
+#ifdef MPM_KERNEL_AVX512
+namespace avx512 {
+std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
+}
+#endif
+
+namespace {
+
+struct Isa {
+  std::string name;
+  std::unique_ptr<Kernel> (*make)(const KernelSetup&);
+};
+
+std::vector<Isa> isas() {
+  std::vector<Isa> found{{"baseline", baseline::make_kernel}};
+#ifdef MPM_KERNEL_AVX2
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
+    found.push_back({"avx2", avx2::make_kernel});
+#endif
+#ifdef MPM_KERNEL_AVX512
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl"))
+    found.push_back({"avx512", avx512::make_kernel});
+#endif
+  return found;
+}
+
+Isa isa_named(const std::string& name) {
+  std::string known;
+  for (const Isa& isa : isas()) {
+    if (isa.name == name) return isa;
+    known += (known.empty() ? "" : ", ") + isa.name;
+  }
+  throw SceneError("instruction set '" + name + "' is not available here; choose one of: " + known);
+}
+
+/// The choice, and what guards it: runs start on several threads.
+struct Choice {
+  std::mutex mutex;
+  std::string name;
+};
+Choice& choice() {
+  static Choice the_choice;
+  return the_choice;
+}
+
+Isa current() {
+  const std::scoped_lock lock(choice().mutex);
+  if (!choice().name.empty()) return isa_named(choice().name);
+  const char* asked = std::getenv("MPM_ISA");
+  return asked && *asked ? isa_named(asked) : isas().back();
+}
+
+}  // namespace
+
+std::vector<std::string> available_isas() {
+  std::vector<std::string> names;
+  for (const Isa& isa : isas()) names.push_back(isa.name);
+  return names;
+}
+
+std::string current_isa() {
+  return current().name;
+}
+
+void use_isa(const std::string& name) {
+  const Isa isa = isa_named(name);
+  const std::scoped_lock lock(choice().mutex);
+  choice().name = isa.name;
+}
+
+std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup) {
+  return current().make(setup);
+}
+
+}  // namespace mpm

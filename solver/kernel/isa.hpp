@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/kernel/kernel.hpp"
+
+namespace mpm {
+
+/// Instruction sets that the kernel was compiled for and this machine has, by name, the plainest first:
+/// "baseline" (the compiler's default), and on x86-64 "avx2" and "avx512" (the levels v3 and v4 of its ABI).
+std::vector<std::string> available_isas();
+
+/// The one in use: the last of available_isas(), unless MPM_ISA in the environment or use_isa() names
+/// another.
+std::string current_isa();
+
+/// From now on simulations start on this one. Throws SceneError, which lists the available ones, for others.
+void use_isa(const std::string& name);
+
+/// A kernel of the current instruction set.
+std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
+
+}  // namespace mpm

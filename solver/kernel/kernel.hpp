@@ -1,0 +1,94 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+
+#include "solver/pressure.hpp"
+#include "solver/rheology.hpp"
+
+namespace mpm {
+
+class ThreadTeam;
+
+// The interface between a solver and the vector kernels. Plain data only: the kernels are compiled for other
+// instruction sets than the rest, and nothing that both compile may differ between them. Components: 0 along
+// the lanes of a vector, 1 across them; which of them is x is the solver's business.
+
+/// One material point. Per unit depth, SI units.
+struct PointState {
+  double position[2], velocity[2];
+  double mass, density;
+  double stress[3];  ///< sigma_00, sigma_11, sigma_01
+};
+
+/// One direction of the grid: Axis as plain data.
+struct LineOfCells {
+  int cells;
+  bool periodic;
+  double length, inverse_h;
+  /// Axis::polynomials of every cell, one set after another.
+  const double* polynomials;
+};
+
+/// Nodal fields. Nodes are numbered n = row * stride + i with i counted along the axis (Axis::function), so
+/// that images of a periodic node have entries of their own, all of the same value.
+struct NodeFields {
+  int stride, rows;
+  double* mass;             ///< m_i [kg/m]
+  double* velocity[2];      ///< v_i [m/s]
+  double* mapped[2];        ///< velocity of the updated particles mapped back (MUSL) [m/s]
+  double* force[2];         ///< f_i of the stress alone [N/m]
+  double* acceleration[2];  ///< a_i [m/s2]
+};
+
+/// What the particles' move found.
+struct Motion {
+  double energy = 0;  ///< sum of squared velocities [m2/s2]: not finite when one of them is not
+  bool inside = true, dense = true;
+};
+
+enum class NodalVelocity { Current, Mapped };
+
+/// Particles in the order of their cells, `width` neighbouring cells a vector, and the passes over them. One
+/// pass is one loop; what belongs together for speed is one pass.
+class Kernel {
+ public:
+  virtual ~Kernel() = default;
+
+  virtual NodeFields nodes() = 0;
+
+  /// P2G: nodal mass and the velocity that momentum over mass makes; walls are not imposed.
+  virtual void map_velocity(NodalVelocity to) = 0;
+  /// Density over dt and stress from a nodal velocity; dt = 0 sets the stress of the present state.
+  virtual void update_stress(NodalVelocity from, double dt) = 0;
+  /// Nodal forces of the stress that the particles have.
+  virtual void forces() = 0;
+  /// update_stress() from the current velocity, and forces().
+  virtual void update_stress_and_forces(double dt) = 0;
+  /// a_i = f_i/m_i + b, v_i += dt a_i; walls are not imposed.
+  virtual void accelerate(const double body_acceleration[2], double dt) = 0;
+  /// G2P: FLIP, PIC or a mean of the two: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p).
+  virtual void take(double flip_fraction, double dt) = 0;
+  /// Moves the particles with the nodal velocity.
+  virtual Motion move(double dt) = 0;
+  /// take() and move().
+  virtual Motion take_and_move(double flip_fraction, double dt) = 0;
+
+  /// Writes all particles in the order in which they came.
+  virtual void gather(PointState* points) const = 0;
+};
+
+struct KernelSetup {
+  int degree;  ///< of the basis, 1 to 3
+  bool strip;  ///< one periodic cell across the lanes, in which nothing varies
+  std::array<LineOfCells, 2> axis;
+  Rheology rheology;
+  bool has_pressure;
+  TaitPressure pressure;
+  const PointState* points;
+  std::size_t count;
+  ThreadTeam* team;
+};
+
+}  // namespace mpm

@@ -1,0 +1,132 @@
+#pragma once
+
+// Included by the translation units of the kernel alone. They are compiled once for every instruction set:
+// MPM_ISA names it, MPM_LANES is the number of doubles in its registers. Everything here lives in a namespace
+// of that name, so that the linker never takes code of one instruction set for that of another.
+
+#include <cmath>
+#include <utility>
+
+namespace mpm::MPM_ISA {
+
+constexpr int width = MPM_LANES;
+using Vector = double __attribute__((vector_size(MPM_LANES * sizeof(double))));
+
+// The C library's vector functions, within 4 units in the last place, named by its vector ABI.
+#if defined(__x86_64__) && defined(__GLIBC__)
+#if MPM_LANES == 8
+#define MPM_VECTOR_MATH(function) _ZGVeN8v_##function
+#elif MPM_LANES == 4
+#define MPM_VECTOR_MATH(function) _ZGVdN4v_##function
+#else
+#define MPM_VECTOR_MATH(function) _ZGVbN2v_##function
+#endif
+extern "C" {
+Vector MPM_VECTOR_MATH(exp)(Vector);
+Vector MPM_VECTOR_MATH(log)(Vector);
+}
+#endif
+
+/// Calls f(0) to f(n - 1), written out: what f indexes can stay in registers.
+template <int n, class F>
+[[gnu::always_inline]] inline void unroll(F&& f) {
+  [&]<int... k>(std::integer_sequence<int, k...>) {
+    (f(k), ...);
+  }
+  (std::make_integer_sequence<int, n>{});
+}
+
+/// `width` doubles in one register: one of each of as many neighbouring cells.
+struct Lanes {
+  Vector v;
+
+  Lanes() = default;
+  Lanes(double x) : v(x - Vector{}) {}
+  Lanes(Vector x) : v(x) {}
+
+  friend Lanes operator+(Lanes a, Lanes b) { return a.v + b.v; }
+  friend Lanes operator-(Lanes a, Lanes b) { return a.v - b.v; }
+  friend Lanes operator*(Lanes a, Lanes b) { return a.v * b.v; }
+  friend Lanes operator/(Lanes a, Lanes b) { return a.v / b.v; }
+  Lanes& operator+=(Lanes b) { return *this = *this + b; }
+  Lanes& operator-=(Lanes b) { return *this = *this - b; }
+
+  double& operator[](int lane) { return reinterpret_cast<double*>(&v)[lane]; }
+  double operator[](int lane) const { return v[lane]; }
+};
+
+/// One yes or no a lane.
+struct Mask {
+  using Bits = decltype(Vector{} < Vector{});
+  Bits bits{};
+
+  friend Mask operator&(Mask a, Mask b) { return {a.bits & b.bits}; }
+  friend Mask operator|(Mask a, Mask b) { return {a.bits | b.bits}; }
+  friend Mask operator!(Mask a) { return {~a.bits}; }
+
+  bool operator[](int lane) const { return bits[lane] != 0; }
+  [[nodiscard]] bool any() const {
+    long some = 0;
+    for (int lane = 0; lane < width; ++lane) some |= bits[lane];
+    return some != 0;
+  }
+};
+
+inline Mask operator<(Lanes a, Lanes b) {
+  return {a.v < b.v};
+}
+inline Mask operator>(Lanes a, Lanes b) {
+  return {a.v > b.v};
+}
+inline Mask operator>=(Lanes a, Lanes b) {
+  return {a.v >= b.v};
+}
+
+/// a where the mask says yes, b elsewhere.
+inline Lanes select(Mask mask, Lanes a, Lanes b) {
+  return mask.bits ? a.v : b.v;
+}
+
+inline Lanes load(const double* from) {
+  using Unaligned = double __attribute__((vector_size(MPM_LANES * sizeof(double)), aligned(8), may_alias));
+  return Vector(*reinterpret_cast<const Unaligned*>(from));
+}
+inline void store(double* to, Lanes x) {
+  using Unaligned = double __attribute__((vector_size(MPM_LANES * sizeof(double)), aligned(8), may_alias));
+  *reinterpret_cast<Unaligned*>(to) = x.v;
+}
+
+inline double sum(Lanes x) {
+  double total = 0;
+  for (int lane = 0; lane < width; ++lane) total += x.v[lane];
+  return total;
+}
+
+// What rheologies are written in.
+inline Lanes sqrt(Lanes x) {
+  Lanes root;
+  for (int lane = 0; lane < width; ++lane) root.v[lane] = std::sqrt(x.v[lane]);
+  return root;
+}
+inline Lanes at_least(Lanes x, double bound) {
+  return select(x < bound, bound, x);
+}
+#ifdef MPM_VECTOR_MATH
+inline Lanes exp(Lanes x) {
+  return MPM_VECTOR_MATH(exp)(x.v);
+}
+inline Lanes log(Lanes x) {
+  return MPM_VECTOR_MATH(log)(x.v);
+}
+#else
+inline Lanes exp(Lanes x) {
+  for (int lane = 0; lane < width; ++lane) x.v[lane] = std::exp(x.v[lane]);
+  return x;
+}
+inline Lanes log(Lanes x) {
+  for (int lane = 0; lane < width; ++lane) x.v[lane] = std::log(x.v[lane]);
+  return x;
+}
+#endif
+
+}  // namespace mpm::MPM_ISA

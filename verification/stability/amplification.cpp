@@ -1,0 +1,186 @@
+#include "verification/stability/amplification.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <numbers>
+
+#include "verification/config/config_error.hpp"
+
+namespace verification {
+namespace {
+
+using Scheme = mpm::Scheme;
+using Vector = Eigen::Vector2cd;
+
+/// What one step carries to the next.
+struct WaveState {
+  Vector u = Vector::Zero();  ///< nodal velocity of the particles
+  Vector q = Vector::Zero();  ///< nodal force of the densities, over c^2
+  Vector s = Vector::Zero();  ///< viscous nodal force of the stress that particles hold (USL, MUSL)
+};
+
+/// One time step on symbols, dt being one; the steps repeat those of the literature that solver/ implements.
+class WaveStep {
+ public:
+  WaveStep(const Scheme& scheme, const BlochSymbols& symbols, const StepSize& step)
+      : scheme_(scheme),
+        symbols_(symbols),
+        step_(step),
+        full_mass_(scheme.transfer == Scheme::Transfer::FullMass),
+        keeps_(scheme.transfer == Scheme::Transfer::Flip || scheme.transfer == Scheme::Transfer::FlipBlend),
+        mass_(full_mass_ ? symbols.consistent_mass : 1) {}
+
+  [[nodiscard]] WaveState operator()(const WaveState& old) const {
+    switch (scheme_.stepping) {
+      case Scheme::Stepping::Usf:
+        return usf(old);
+      case Scheme::Stepping::Usl:
+      case Scheme::Stepping::Musl:
+        return stress_last(old);
+      case Scheme::Stepping::Leapfrog:
+        return leapfrog(old);
+      case Scheme::Stepping::ImplicitEuler:
+        return implicit_euler(old);
+      case Scheme::Stepping::ImplicitSdirk2:
+        return implicit_sdirk2(old);
+    }
+    return old;
+  }
+
+ private:
+  [[nodiscard]] Vector viscous(const Vector& u) const { return -step_.r * (symbols_.viscous * u); }
+  [[nodiscard]] Vector pressure(const Vector& q) const { return step_.cfl * step_.cfl * q; }
+  [[nodiscard]] Vector compressed(const Vector& q, const Vector& u, double dt) const {
+    return q - dt * (symbols_.dilation * u);
+  }
+  [[nodiscard]] Vector acceleration(const Vector& force) const { return force / mass_; }
+
+  /// The particles take the grid's end velocity or its increment; what the next P2G makes of it.
+  [[nodiscard]] Vector taken(const Vector& begin, const Vector& end) const {
+    const Vector flip = begin + symbols_.remap * (end - begin), pic = symbols_.remap * end;
+    switch (scheme_.transfer) {
+      case Scheme::Transfer::Flip:
+        return flip;
+      case Scheme::Transfer::Pic:
+        return pic;
+      case Scheme::Transfer::FlipBlend:
+        return scheme_.flip_fraction * flip + (1 - scheme_.flip_fraction) * pic;
+      case Scheme::Transfer::Apic:
+        return symbols_.affine_remap * end;
+      case Scheme::Transfer::FullMass:
+        return end;
+    }
+    return end;
+  }
+
+  [[nodiscard]] WaveState usf(const WaveState& old) const {
+    WaveState next;
+    next.q = compressed(old.q, old.u, 1);
+    const Vector end = old.u + acceleration(viscous(old.u) + pressure(next.q));
+    next.u = taken(old.u, end);
+    return next;
+  }
+
+  [[nodiscard]] WaveState stress_last(const WaveState& old) const {
+    WaveState next;
+    const Vector end = old.u + acceleration(old.s + pressure(old.q));
+    next.u = taken(old.u, end);
+    const Vector strains = scheme_.stepping == Scheme::Stepping::Musl ? next.u : end;
+    next.q = compressed(old.q, strains, 1);
+    next.s = viscous(strains);
+    return next;
+  }
+
+  [[nodiscard]] WaveState leapfrog(const WaveState& old) const {
+    WaveState next;
+    const Vector q = compressed(old.q, old.u, 0.5);
+    Vector stage = acceleration(viscous(old.u) + pressure(q));
+    if (keeps_) stage *= symbols_.remap;
+    const Vector middle = old.u + 0.5 * stage;
+    const Vector end = old.u + acceleration(viscous(middle) + pressure(q));
+    next.u = taken(old.u, end);
+    next.q = compressed(q, keeps_ ? next.u : end, 0.5);
+    return next;
+  }
+
+  /// M (v - start) = dt (force - nu K v)
+  [[nodiscard]] Vector implicit(const Vector& start, const Vector& force, double dt) const {
+    const Eigen::Matrix2cd matrix = mass_ * Eigen::Matrix2cd::Identity() + dt * step_.r * symbols_.viscous;
+    return matrix.fullPivLu().solve(mass_ * start + dt * force);
+  }
+
+  [[nodiscard]] WaveState implicit_euler(const WaveState& old) const {
+    WaveState next;
+    next.q = compressed(old.q, old.u, 1);
+    next.u = taken(old.u, implicit(old.u, pressure(next.q), 1));
+    return next;
+  }
+
+  [[nodiscard]] WaveState implicit_sdirk2(const WaveState& old) const {
+    constexpr double gamma = 1 - 0.5 * std::numbers::sqrt2;
+    WaveState next;
+    const Vector q = compressed(old.q, old.u, 0.5);
+    const Vector first = implicit(old.u, pressure(q), gamma);
+    const Vector stage = old.u + (1 - gamma) / gamma * (first - old.u);
+    const Vector end = implicit(stage, pressure(q), gamma);
+    next.u = taken(old.u, end);
+    next.q = compressed(q, keeps_ ? next.u : end, 0.5);
+    return next;
+  }
+
+  Scheme scheme_;
+  const BlochSymbols& symbols_;
+  StepSize step_;
+  bool full_mass_, keeps_;
+  double mass_;
+};
+
+}  // namespace
+
+std::string name(Waves waves) {
+  switch (waves) {
+    case Waves::Shear:
+      return "shear";
+    case Waves::Longitudinal:
+      return "longitudinal";
+    default:
+      return "plane";
+  }
+}
+
+Waves waves_named(const std::string& text) {
+  for (const Waves waves : {Waves::Shear, Waves::Longitudinal, Waves::Plane})
+    if (name(waves) == text) return waves;
+  throw ConfigError("waves '" + text + "' are not known; choose of: shear, longitudinal, plane");
+}
+
+Eigen::MatrixXcd amplification_matrix(const Scheme& scheme, const BlochSymbols& symbols, Waves waves,
+                                      const StepSize& step) {
+  const int first = waves == Waves::Longitudinal ? 1 : 0, last = waves == Waves::Shear ? 0 : 1;
+  const bool carries_stress =
+      step.r > 0 && (scheme.stepping == Scheme::Stepping::Usl || scheme.stepping == Scheme::Stepping::Musl);
+  std::vector<Vector WaveState::*> fields = {&WaveState::u};
+  if (step.cfl > 0) fields.push_back(&WaveState::q);
+  if (carries_stress) fields.push_back(&WaveState::s);
+
+  const WaveStep advance(scheme, symbols, step);
+  const int per_field = last - first + 1;
+  const auto size = static_cast<Eigen::Index>(fields.size()) * per_field;
+  Eigen::MatrixXcd matrix(size, size);
+  for (Eigen::Index column = 0; column < size; ++column) {
+    WaveState unit;
+    (unit.*fields[static_cast<std::size_t>(column / per_field)])[first + column % per_field] = 1;
+    const WaveState image = advance(unit);
+    for (Eigen::Index row = 0; row < size; ++row)
+      matrix(row, column) =
+          (image.*fields[static_cast<std::size_t>(row / per_field)])[first + row % per_field];
+  }
+  return matrix;
+}
+
+double spectral_radius(const Eigen::MatrixXcd& matrix) {
+  if (!matrix.allFinite()) return std::numeric_limits<double>::infinity();
+  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+}  // namespace verification

@@ -1,0 +1,166 @@
+#include "verification/suite/run_cache.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <system_error>
+#include <vector>
+
+#include "reports/atomic_file.hpp"
+#include "reports/content_hash.hpp"
+#include "reports/io_error.hpp"
+#include "solver/kernel/isa.hpp"
+#include "verification/suite/build_identity.hpp"
+#include "verification/suite/run_entry.hpp"
+
+namespace verification {
+namespace {
+
+namespace fs = std::filesystem;
+
+// To be raised with any change of the bytes in a file; what is computed is part of the build's identity.
+constexpr const char* format = "mpm-verify run, format 1\n";
+
+/// The text that decides something, with what decides everything: the build and its instruction set.
+std::string key_of(const std::string& content) {
+  return fmt::format("{}build {}\nkernels {}\n{}\n", format, build_identity(), mpm::current_isa(), content);
+}
+
+/// All that decides the result of a run, as text.
+std::string content_of(const Study& study, const PlannedRun& plan) {
+  return fmt::format("compared with {}\nrepetitions {}\n{}", static_cast<int>(study.comparison),
+                     study.repetitions, plan.scene.toml);
+}
+
+std::string checksum_of(const std::string& body) {
+  const std::uint64_t hash = reports::content_hash(body);
+  std::string bytes(sizeof hash, '\0');
+  std::memcpy(bytes.data(), &hash, sizeof hash);
+  return bytes;
+}
+
+struct Entry {
+  fs::path path;
+  fs::file_time_type used;
+  std::uintmax_t bytes;
+};
+
+/// Files of a directory, oldest first.
+std::vector<Entry> files_in(const fs::path& directory) {
+  std::vector<Entry> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(directory, error)) {
+    std::error_code gone;
+    const auto bytes = entry.file_size(gone);
+    const auto used = entry.last_write_time(gone);
+    if (!gone) files.push_back({entry.path(), used, bytes});
+  }
+  std::ranges::sort(files, {}, &Entry::used);
+  return files;
+}
+
+}  // namespace
+
+RunCache::RunCache(const fs::path& directory, CacheUse use) : use_(use) {
+  if (use_ == CacheUse::Off) return;
+  if (directory.empty() || build_identity().empty()) {
+    use_ = CacheUse::Off;
+    return;
+  }
+  runs_ = directory / "runs";
+  own_ = runs_ / build_identity();
+  std::error_code ignored;
+  fs::create_directories(own_, ignored);
+  fs::last_write_time(own_, fs::file_time_type::clock::now(), ignored);  // in use: prune() goes by this
+}
+
+fs::path RunCache::file_of(const std::string& key) const {
+  return on() ? own_ / (reports::content_name(key) + ".run") : fs::path();
+}
+
+fs::path RunCache::file(const Study& study, const PlannedRun& plan) const {
+  return study.solver_command.empty() ? file_of(key_of(content_of(study, plan))) : fs::path();
+}
+
+std::optional<std::string> RunCache::load(const std::string& content) const {
+  if (use_ != CacheUse::Reuse) return std::nullopt;
+  const std::string key = key_of(content);
+  std::string bytes;
+  try {
+    bytes = reports::read_file(file_of(key));
+  } catch (const reports::IoError&) {
+    return std::nullopt;
+  }
+  constexpr std::size_t checksum_size = sizeof(std::uint64_t);
+  if (bytes.size() < key.size() + checksum_size || bytes.compare(0, key.size(), key) != 0)
+    return std::nullopt;
+  const std::string checksum = bytes.substr(bytes.size() - checksum_size);
+  bytes.resize(bytes.size() - checksum_size);
+  bytes.erase(0, key.size());
+  if (checksum != checksum_of(bytes)) return std::nullopt;
+  return bytes;
+}
+
+std::optional<RunData> RunCache::load(const Study& study, const PlannedRun& plan) const {
+  if (!study.solver_command.empty()) return std::nullopt;
+  const std::optional<std::string> bytes = load(content_of(study, plan));
+  return bytes ? decode_run(*bytes, study, plan) : std::nullopt;
+}
+
+void RunCache::save(const std::string& content, const std::string& bytes) {
+  if (!on()) return;
+  const std::string key = key_of(content);
+  try {
+    reports::write_file(file_of(key), key + bytes + checksum_of(bytes), reports::Durability::Unsynced);
+    ++saved_;
+  } catch (const reports::IoError&) {
+    ++lost_;
+  }
+}
+
+void RunCache::save(const Study& study, const RunData& data) {
+  if (study.solver_command.empty()) save(content_of(study, *data.plan), encode_run(data));
+}
+
+std::string RunCache::warning() const {
+  return lost_ == 0 ? ""
+                    : fmt::format(
+                          "{} finished runs could not be kept in {}: free some space there or set "
+                          "MPM_CACHE; the results are complete, only not remembered",
+                          lost_.load(), runs_.string());
+}
+
+void RunCache::prune(std::uintmax_t limit) const {
+  if (!on() || saved_ == 0) return;
+  struct Build {
+    fs::path path;
+    fs::file_time_type used;
+    std::uintmax_t bytes;
+  };
+  std::vector<Build> others;
+  std::uintmax_t total = 0;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(runs_, error)) {
+    std::error_code gone;
+    Build build{entry.path(), entry.last_write_time(gone), 0};
+    for (const Entry& file : files_in(entry.path())) build.bytes += file.bytes;
+    total += build.bytes;
+    if (entry.path() != own_) others.push_back(build);
+  }
+  std::ranges::sort(others, {}, &Build::used);
+  for (const Build& build : others) {
+    if (total <= limit) return;
+    std::error_code gone;
+    fs::remove_all(build.path, gone);
+    total -= build.bytes;
+  }
+  for (const Entry& file : files_in(own_)) {
+    if (total <= limit) return;
+    std::error_code gone;
+    fs::remove(file.path, gone);
+    total -= file.bytes;
+  }
+}
+
+}  // namespace verification

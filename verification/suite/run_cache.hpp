@@ -1,0 +1,58 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "verification/study/run_data.hpp"
+
+namespace verification {
+
+/// How a suite uses the cache of finished runs.
+enum class CacheUse {
+  Reuse,    ///< take what is there, add what is not
+  Refresh,  ///< run everything, and replace what is there
+  Off       ///< neither read nor write
+};
+
+/// Finished simulations, one file each, found by the content that decides them: the scene as read (every
+/// value and the scheme), what the run is compared with, repetitions of its timing, and the identity of the
+/// build that computes (build_identity()). Names of study and run take no part. Runs of somebody else's
+/// solver are not kept: what decides them is not known. Every file carries its key and a checksum; one that
+/// does not fit is as good as none. Threads and processes may share a directory: files appear whole, by
+/// renaming.
+class RunCache {
+ public:
+  /// Keeps runs below `directory`/runs; an empty directory is CacheUse::Off.
+  RunCache(const std::filesystem::path& directory, CacheUse use);
+
+  /// The finished run with this content, if it is there and whole. Never throws for a bad file.
+  [[nodiscard]] std::optional<RunData> load(const Study& study, const PlannedRun& plan) const;
+  /// Bytes kept for what this text decides, likewise.
+  [[nodiscard]] std::optional<std::string> load(const std::string& content) const;
+  /// Keeps a run that completed or diverged. A disk that is full or cannot be written is noted, no failure.
+  void save(const Study& study, const RunData& data);
+  void save(const std::string& content, const std::string& bytes);
+
+  [[nodiscard]] bool on() const { return use_ != CacheUse::Off; }
+  /// One line on what could not be kept and why; "" if all is well.
+  [[nodiscard]] std::string warning() const;
+  /// Deletes what other builds left, least recently used first, until all builds together hold at most
+  /// `limit` bytes; then, if need be, the oldest of our own. Does nothing if nothing was saved.
+  void prune(std::uintmax_t limit = default_limit) const;
+
+  static constexpr std::uintmax_t default_limit = 1u << 30;
+
+  /// The file in which a run is kept; "" for one that is not kept.
+  [[nodiscard]] std::filesystem::path file(const Study& study, const PlannedRun& plan) const;
+
+ private:
+  [[nodiscard]] std::filesystem::path file_of(const std::string& key) const;
+
+  CacheUse use_;
+  std::filesystem::path runs_, own_;  // <cache>/runs and <cache>/runs/<build>
+  std::atomic<long> saved_{0}, lost_{0};
+};
+
+}  // namespace verification

@@ -1,0 +1,50 @@
+#include "verification/suite/schedule.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+namespace verification {
+
+Schedule schedule(const std::vector<Study>& studies) {
+  Schedule schedule;
+  for (std::size_t s = 0; s < studies.size(); ++s)
+    for (std::size_t r = 0; r < studies[s].runs.size(); ++r)
+      (studies[s].repetitions > 0 ? schedule.alone : schedule.shared)
+          .push_back({s, r, studies[s].runs[r].scene.particle_steps()});
+  for (std::size_t s = 0; s < studies.size(); ++s)
+    for (std::size_t c = 0; c < studies[s].stability.cases.size(); ++c)
+      schedule.shared.push_back({s, c, studies[s].stability.cost(studies[s].stability.cases[c]), true});
+  std::ranges::stable_sort(schedule.shared, std::ranges::greater{}, &Job::cost);
+  return schedule;
+}
+
+std::exception_ptr perform_all(const std::vector<Job>& jobs, int threads,
+                               const std::function<void(const Job&)>& perform) {
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> stopped{false};
+  std::mutex mutex;
+  std::exception_ptr cause;
+  const auto work = [&] {
+    while (!stopped) {
+      const std::size_t mine = next++;
+      if (mine >= jobs.size()) return;
+      try {
+        perform(jobs[mine]);
+      } catch (...) {
+        const std::scoped_lock lock(mutex);
+        if (!cause) cause = std::current_exception();
+        stopped = true;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> pool;
+    for (int i = 1; i < threads; ++i) pool.emplace_back(work);
+    work();
+  }
+  return cause;
+}
+
+}  // namespace verification
