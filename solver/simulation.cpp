@@ -1,6 +1,7 @@
 #include "solver/simulation.hpp"
 
 #include "solver/axis.hpp"
+#include "solver/kernel/isa.hpp"
 #include "solver/make_solver.hpp"
 
 namespace mpm {
@@ -33,6 +34,7 @@ VectorField sample_points(const Scene& scene, const Scheme& scheme) {
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme, int threads) {
   scene.validate();
   scheme.validate();
+  if (threads == 0) threads = default_threads();
   switch (scheme.basis) {
     case Scheme::Basis::Linear:
       return make_linear_solver(scene, scheme, threads);

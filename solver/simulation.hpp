@@ -63,8 +63,8 @@ VectorField cell_corners(const Scene& scene);
 VectorField sample_points(const Scene& scene, const Scheme& scheme);
 
 /// Seeds the scene and starts the chosen scheme on it. Throws SceneError for a scene that cannot be
-/// simulated. `threads` work on it; the results are the same for any number of them. Schemes that the vector
-/// kernels do not cover (LaneSolver) run on one.
-std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme, int threads = 1);
+/// simulated. `threads` work on it (0: default_threads()); the results are the same for any number of them.
+/// Schemes that the vector kernels do not cover (LaneSolver) run on one.
+std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme, int threads = 0);
 
 }  // namespace mpm

@@ -6,6 +6,8 @@
 
 #include "build_info.hpp"
 #include "reports/io_error.hpp"
+#include "solver/kernel/isa.hpp"
+#include "solver/scene.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/config/config_error.hpp"
 
@@ -85,12 +87,23 @@ int dispatch(int argc, char** argv) {
   }
 
   solve_app->add_flag("--no-figures", scene.no_figures, "Draw nothing: for timing, and for many scenes");
+  int threads = 1;
+  std::string isa;
+  for (auto* sub : {run_app, solve_app}) {
+    sub->add_option("--threads", threads, "Threads of one simulation (results do not depend on it)")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    sub->add_option("--isa", isa, "Instruction set of the vector kernels (default: the machine's best)")
+        ->check(CLI::IsMember(mpm::available_isas()));
+  }
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  mpm::use_threads(threads);
+  mpm::use_isa(isa.empty() ? mpm::current_isa() : isa);  // a mistake in the environment shows now
   list.studies = run.studies = studies;
   run.command_line = scene.command_line = joined(argc, argv);
   if (*list_app) return list_command(list);
@@ -110,6 +123,9 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "mpm-verify: {}\n", error.what());
     return 2;
   } catch (const reports::IoError& error) {
+    fmt::print(stderr, "mpm-verify: {}\n", error.what());
+    return 2;
+  } catch (const mpm::SceneError& error) {
     fmt::print(stderr, "mpm-verify: {}\n", error.what());
     return 2;
   } catch (const std::exception& error) {

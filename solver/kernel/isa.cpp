@@ -1,5 +1,6 @@
 #include "solver/kernel/isa.hpp"
 
+#include <atomic>
 #include <cstdlib>
 #include <mutex>
 
@@ -49,7 +50,8 @@ Isa isa_named(const std::string& name) {
     if (isa.name == name) return isa;
     known += (known.empty() ? "" : ", ") + isa.name;
   }
-  throw SceneError("instruction set '" + name + "' is not available here; choose one of: " + known);
+  throw SceneError("instruction set '" + name +
+                   "' (--isa or MPM_ISA) is not available; choose one of: " + known);
 }
 
 /// The choice, and what guards it: runs start on several threads.
@@ -61,6 +63,8 @@ Choice& choice() {
   static Choice the_choice;
   return the_choice;
 }
+
+std::atomic<int> threads_of_one_simulation = 1;
 
 Isa current() {
   const std::scoped_lock lock(choice().mutex);
@@ -85,6 +89,15 @@ void use_isa(const std::string& name) {
   const Isa isa = isa_named(name);
   const std::scoped_lock lock(choice().mutex);
   choice().name = isa.name;
+}
+
+int default_threads() {
+  return threads_of_one_simulation;
+}
+
+void use_threads(int threads) {
+  if (threads < 1) throw SceneError("the number of threads must be at least 1");
+  threads_of_one_simulation = threads;
 }
 
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup) {

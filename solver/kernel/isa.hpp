@@ -19,6 +19,11 @@ std::string current_isa();
 /// From now on simulations start on this one. Throws SceneError, which lists the available ones, for others.
 void use_isa(const std::string& name);
 
+/// Threads of one simulation, for those that are not told (make_simulation): 1, until use_threads() says
+/// otherwise. Results do not depend on it.
+int default_threads();
+void use_threads(int threads);
+
 /// A kernel of the current instruction set.
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
 

@@ -44,7 +44,7 @@ struct NodeFields {
 
 /// What the particles' move found.
 struct Motion {
-  double energy = 0;  ///< sum of squared velocities [m2/s2]: not finite when one of them is not
+  double energy = 0;  ///< twice the kinetic energy [J/m]: not finite when a velocity is not
   bool inside = true, dense = true;
 };
 

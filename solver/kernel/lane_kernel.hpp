@@ -22,9 +22,9 @@ class LaneKernel final : public Kernel {
         team_(setup.team),
         chunks_(cells_.count(), basis_.offset(Basis::nodes - 1)),
         found_(static_cast<std::size_t>(chunks_.count)) {
-    // Blocks at the end read and write beyond the last node, within one width.
+    // Blocks at the end read and write beyond the last node, within a margin.
     const int size =
-        std::max(rows_ * cells_.stride(), chunks_.cells) + basis_.offset(Basis::nodes - 1) + width;
+        std::max(rows_ * cells_.stride(), chunks_.cells) + basis_.offset(Basis::nodes - 1) + margin;
     for (auto& field : fields_) field.assign(static_cast<std::size_t>(size / width + 1), Lanes(0));
   }
 
@@ -52,9 +52,10 @@ class LaneKernel final : public Kernel {
         });
       };
     });
-    each_node([=, m_i = field(mass)](int i) {
-      const Lanes m = load(m_i + i);
-      for (int c : {0, 1}) store(v_i[c] + i, select(m > 0, load(v_i[c] + i) / m, 0));
+    each_node([=, m_i = field(mass), inverse = field(inverse_mass)](int i) {
+      const Lanes m = load(m_i + i), one_over_m = select(m > 0, 1 / m, 0);
+      store(inverse + i, one_over_m);
+      for (int c : {0, 1}) store(v_i[c] + i, load(v_i[c] + i) * one_over_m);
     });
   }
 
@@ -91,10 +92,10 @@ class LaneKernel final : public Kernel {
     double* const a_i[2] = {field(acceleration), field(acceleration + 1)};
     double* const v_i[2] = {field(velocity), field(velocity + 1)};
     const double b_0 = b[0], b_1 = b[1];
-    each_node([=, m_i = field(mass)](int i) {
-      const Lanes m = load(m_i + i), g[2] = {b_0, b_1};
+    each_node([=, inverse = field(inverse_mass)](int i) {
+      const Lanes one_over_m = load(inverse + i), g[2] = {b_0, b_1};
       for (int c : {0, 1}) {
-        const Lanes a = select(m > 0, load(f_i[c] + i) / m + g[c], 0);
+        const Lanes a = select(one_over_m > 0, load(f_i[c] + i) * one_over_m + g[c], 0);
         store(a_i[c] + i, a);
         store(v_i[c] + i, load(v_i[c] + i) + dt * a);
       }
@@ -112,6 +113,7 @@ class LaneKernel final : public Kernel {
  private:
   enum {
     mass,
+    inverse_mass,  // zero where there is no mass
     velocity,
     mapped = velocity + 2,
     force = mapped + 2,
@@ -121,8 +123,7 @@ class LaneKernel final : public Kernel {
 
   /// What a chunk of cells reports when its particles have moved.
   struct alignas(64) Found {
-    Lanes energy;
-    Mask thin;  // density not positive
+    Lanes energy, least_volume;
     std::vector<Address> left;
   };
 
@@ -177,7 +178,7 @@ class LaneKernel final : public Kernel {
       const NodesOfCells<Basis> v(basis_, block, velocity_field(NodalVelocity::Current).data());
       double* const a_i[2] = {field(acceleration), field(acceleration + 1)};
       const NodesOfCells<Basis> a(basis_, block, a_i);
-      Mask left;
+      Lanes energy = 0, least_volume = 0, lowest = 0, highest = 0;
       for (Slot& p : cells_.slots(block)) {
         Lanes v_x[2] = {0, 0}, a_x[2] = {0, 0};
         CellWeights<Basis>(basis_, block, p.x).values([&](int i, Lanes n) {
@@ -185,23 +186,24 @@ class LaneKernel final : public Kernel {
           if constexpr (takes)
             for (int c : {0, 1}) a_x[c] += n * a.at[c][i];
         });
-        const Mask occupied = p.mass > 0;
         if constexpr (takes)
-          for (int c : {0, 1})
-            p.v[c] = select(occupied, flip * (p.v[c] + dt * a_x[c]) + (1 - flip) * v_x[c], 0);
+          for (int c : {0, 1}) p.v[c] = flip * (p.v[c] + dt * a_x[c]) + (1 - flip) * v_x[c];
         if constexpr (moves) {
-          Mask stays = !Mask{};
           for (int c : {0, 1}) {
-            p.x[c] = select(occupied, p.x[c] + dt * v_x[c], p.x[c]);
+            p.x[c] = select(p.mass > 0, p.x[c] + dt * v_x[c], p.x[c]);
             const Lanes s = p.x[c] * basis_.inverse_h[c] - block.cell[c];
-            stays = stays & (s >= 0) & (s < 1);
+            lowest = least(lowest, s);
+            highest = largest(highest, s);
           }
-          left = left | !stays;
-          found.energy += p.v[0] * p.v[0] + p.v[1] * p.v[1];
-          found.thin = found.thin | (occupied & !(p.volume > 0));
+          energy += p.mass * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
+          least_volume = least(least_volume, p.volume);
         }
       }
-      if (moves && left.any()) list_movers(block, found.left);
+      if constexpr (moves) {
+        found.energy += energy;
+        found.least_volume = least(found.least_volume, least_volume);
+        if ((lowest < 0).any() || (highest >= 1).any()) list_movers(block, found.left);
+      }
     });
     return moves ? settle() : Motion{};
   }
@@ -225,7 +227,7 @@ class LaneKernel final : public Kernel {
     Motion motion;
     for (Found& found : found_) {
       motion.energy += sum(found.energy);
-      motion.dense &= !found.thin.any();
+      motion.dense &= !(found.least_volume < 0).any();
       motion.inside &= cells_.rehouse(found.left);
       found.left.clear();
     }
@@ -261,7 +263,7 @@ class LaneKernel final : public Kernel {
     chunks_.each(team_, [&](int chunk) {
       Found& found = found_[static_cast<std::size_t>(chunk)];
       found.energy = 0;
-      found.thin = {};
+      found.least_volume = 0;
       for (int cell = chunks_.begin(chunk); cell < chunks_.end(chunk); cell += width)
         f(cells_.block(cell), found);
     });

@@ -87,6 +87,14 @@ inline Lanes select(Mask mask, Lanes a, Lanes b) {
   return mask.bits ? a.v : b.v;
 }
 
+/// Of two: b where they cannot be compared.
+inline Lanes least(Lanes a, Lanes b) {
+  return select(a < b, a, b);
+}
+inline Lanes largest(Lanes a, Lanes b) {
+  return select(a > b, a, b);
+}
+
 inline Lanes load(const double* from) {
   using Unaligned = double __attribute__((vector_size(MPM_LANES * sizeof(double)), aligned(8), may_alias));
   return Vector(*reinterpret_cast<const Unaligned*>(from));

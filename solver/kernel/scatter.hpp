@@ -8,6 +8,9 @@ namespace mpm::MPM_ISA {
 /// Cells whose sums are kept before nodes add them up: they stay in the first or second cache.
 constexpr int tile = 256;
 
+/// Beside a tile's cells: whole vectors, at least as many numbers as the degree of the basis.
+constexpr int margin = 8;
+
 /// What the particles of a tile give to the nodes of their own cells. Written cell by cell, read node by
 /// node: no two particles ever add to the same number at the same time.
 template <class Basis, int fields>
@@ -24,20 +27,19 @@ class TileSums {
     constexpr int along = Basis::support[0], across = Basis::support[1];
     for (auto& field : sums_)
       for (auto& of_node : field)
-        for (int n = 0; n < Basis::degree; ++n) of_node[margin - 1 - n] = of_node[margin + cells + n] = 0;
+        for (int n = 0; n < margin; ++n) of_node[n] = of_node[margin + cells + n] = 0;
     for (int f = 0; f < fields; ++f)
       for (int l = 0; l < across; ++l) {
         double* row = nodes[f] + first + l * basis.stride;
-        for (int n = 0; n < cells + Basis::degree; ++n) {
-          double sum = row[n];
-          for (int k = 0; k < along; ++k) sum += sums_[f][l * along + k][margin + n - k];
-          row[n] = sum;
+        for (int n = 0; n < cells + Basis::degree; n += width) {
+          Lanes sum = load(row + n);
+          unroll<along>([&](int k) { sum += load(&sums_[f][l * along + k][margin + n - k]); });
+          store(row + n, sum);
         }
       }
   }
 
  private:
-  static constexpr int margin = 8;  // at least the degree, and whole vectors; read as zero
   alignas(64) double sums_[fields][Basis::nodes][margin + tile + margin];
 };
 
@@ -46,9 +48,9 @@ class TileSums {
 struct Chunks {
   int length, count, cells;
 
-  /// For cells of which each touches nodes up to `reach` further on.
+  /// For cells of which each touches nodes up to `reach` further on; sums are added in whole vectors.
   Chunks(int cells, int reach)
-      : length((reach + tile) / tile * tile), count((cells + length - 1) / length), cells(cells) {}
+      : length((reach + margin + tile) / tile * tile), count((cells + length - 1) / length), cells(cells) {}
 
   [[nodiscard]] int begin(int chunk) const { return chunk * length; }
   [[nodiscard]] int end(int chunk) const { return std::min(cells, (chunk + 1) * length); }

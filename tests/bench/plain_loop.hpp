@@ -12,12 +12,14 @@
 // twice.
 namespace plain {
 
+template <class Real>
 struct Particle {
-  double x, y, u, v, mass, density, s_xx, s_yy, s_xy;
+  Real x, y, u, v, mass, density, s_xx, s_yy, s_xy;
 };
 
+template <class Real>
 struct Node {
-  double mass, u, v, f_x, f_y, a_x, a_y;
+  Real mass, u, v, f_x, f_y, a_x, a_y;
 };
 
 /// A channel along x, periodic, between walls at rest at y = 0 and y = height.
@@ -29,10 +31,13 @@ struct Channel {
 };
 
 /// `Viscosity` gives mu [Pa s] from gdot^2 = 2 D:D [1/s2]; for one that does not ask for it the compiler
-/// leaves the shear rate out.
-template <class Viscosity>
+/// leaves the shear rate out. `Real` is double, or a number that counts what is done to it.
+template <class Viscosity, class Real = double>
 class Loop {
  public:
+  using Particle = plain::Particle<Real>;
+  using Node = plain::Node<Real>;
+
   Loop(const Channel& channel, Viscosity viscosity)
       : channel_(channel),
         viscosity_(viscosity),
@@ -55,7 +60,7 @@ class Loop {
       const Stencil s = stencil(p);
       for (int k = 0; k < 4; ++k) {
         Node& node = nodes_[s.node[k]];
-        const double m = s.n[k] * p.mass;
+        const Real m = s.n[k] * p.mass;
         node.mass += m;
         node.u += m * p.u;
         node.v += m * p.v;
@@ -70,7 +75,7 @@ class Loop {
 
     for (Particle& p : particles_) {
       const Stencil s = stencil(p);
-      double d_xx = 0, d_yy = 0, l_xy = 0, l_yx = 0;
+      Real d_xx = 0, d_yy = 0, l_xy = 0, l_yx = 0;
       for (int k = 0; k < 4; ++k) {
         const Node& node = nodes_[s.node[k]];
         d_xx += node.u * s.dn_x[k];
@@ -78,19 +83,19 @@ class Loop {
         l_yx += node.v * s.dn_x[k];
         d_yy += node.v * s.dn_y[k];
       }
-      const double d_xy = 0.5 * (l_xy + l_yx), trace = d_xx + d_yy;
-      const double mu = viscosity_(2 * (d_xx * d_xx + d_yy * d_yy) + 4 * d_xy * d_xy);
-      double isotropic = -(2.0 / 3.0) * mu * trace;
+      const Real d_xy = 0.5 * (l_xy + l_yx), trace = d_xx + d_yy;
+      const Real mu = viscosity_(2 * (d_xx * d_xx + d_yy * d_yy) + 4 * d_xy * d_xy);
+      Real isotropic = -(2.0 / 3.0) * mu * trace;
       if (channel_.pressure) {
         p.density /= 1 + dt * trace;
-        const double r = p.density * (1 / channel_.density), r3 = r * r * r;
+        const Real r = p.density * (1 / channel_.density), r3 = r * r * r;
         isotropic -= channel_.bulk_modulus * (r3 * r3 * r - 1);
       }
       p.s_xx = 2 * mu * d_xx + isotropic;
       p.s_yy = 2 * mu * d_yy + isotropic;
       p.s_xy = 2 * mu * d_xy;
-      const double volume = p.mass / p.density;
-      const double f_xx = volume * p.s_xx, f_yy = volume * p.s_yy, f_xy = volume * p.s_xy;
+      const Real volume = p.mass / p.density;
+      const Real f_xx = volume * p.s_xx, f_yy = volume * p.s_yy, f_xy = volume * p.s_xy;
       for (int k = 0; k < 4; ++k) {
         Node& node = nodes_[s.node[k]];
         node.f_x -= f_xx * s.dn_x[k] + f_xy * s.dn_y[k];
@@ -110,7 +115,7 @@ class Loop {
 
     for (Particle& p : particles_) {
       const Stencil s = stencil(p);
-      double u = 0, v = 0, a_x = 0, a_y = 0;
+      Real u = 0, v = 0, a_x = 0, a_y = 0;
       for (int k = 0; k < 4; ++k) {
         const Node& node = nodes_[s.node[k]];
         u += s.n[k] * node.u;
@@ -130,14 +135,14 @@ class Loop {
  private:
   struct Stencil {
     std::size_t node[4];
-    double n[4], dn_x[4], dn_y[4];
+    Real n[4], dn_x[4], dn_y[4];
   };
 
   [[nodiscard]] Stencil stencil(const Particle& p) const {
     const int i = std::clamp(static_cast<int>(p.x * inverse_hx_), 0, channel_.cells_x - 1);
     const int j = std::clamp(static_cast<int>(p.y * inverse_hy_), 0, channel_.cells_y - 1);
     const int right = i + 1 == channel_.cells_x ? 0 : i + 1;
-    const double s = p.x * inverse_hx_ - i, t = p.y * inverse_hy_ - j;
+    const Real s = p.x * inverse_hx_ - i, t = p.y * inverse_hy_ - j;
     const auto at = [&](int column, int row) {
       return static_cast<std::size_t>(row * channel_.cells_x + column);
     };
@@ -164,21 +169,28 @@ class Loop {
 
 struct Newtonian {
   double mu;
-  double operator()(double) const { return mu; }
+  template <class Real>
+  Real operator()(const Real&) const {
+    return mu;
+  }
 };
 
 /// Cross fluid with M = 1.
 struct Cross {
   double mu_0, mu_inf, K;
-  double operator()(double gdot_squared) const {
-    return mu_inf + (mu_0 - mu_inf) / (1 + K * std::sqrt(gdot_squared));
+  template <class Real>
+  Real operator()(const Real& gdot_squared) const {
+    using std::sqrt;
+    return mu_inf + (mu_0 - mu_inf) / (1 + K * sqrt(gdot_squared));
   }
 };
 
 struct PowerLaw {
   double mu_0, n, floor;
-  double operator()(double gdot_squared) const {
-    return mu_0 * std::pow(std::max(gdot_squared, floor * floor), 0.5 * (n - 1));
+  template <class Real>
+  Real operator()(const Real& gdot_squared) const {
+    using std::pow;
+    return mu_0 * pow(std::max<Real>(gdot_squared, floor * floor), 0.5 * (n - 1));
   }
 };
 
