@@ -18,7 +18,8 @@ test: configure
 	ctest --test-dir $(BUILD) -L 'unit|e2e' --output-on-failure
 
 bench: configure
-	cmake --build $(BUILD) --target bench
+	cmake --build $(BUILD) --target mpm-bench
+	$(BUILD)/tests/mpm-bench $(RESULTS)-bench
 
 program: configure
 	cmake --build $(BUILD) --target mpm-verify

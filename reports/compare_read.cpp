@@ -4,6 +4,7 @@
 #include <limits>
 #include <sstream>
 
+#include "reports/bench_file.hpp"
 #include "reports/compare.hpp"
 #include "reports/csv.hpp"
 #include "reports/io_error.hpp"
@@ -14,14 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// bench.csv: one number of a benchmark.
-struct BenchRow {
-  std::string benchmark, quantity;
-  double value = 0;
-  std::string unit;
-  double spread = 0;  // relative, from the repetitions; NaN for a single one
-};
 
 /// The names in the first line of a file.
 std::vector<std::string> header_of(const fs::path& file) {
@@ -115,13 +108,9 @@ Sense sense_of(const std::string& unit) {
   return Sense::Neutral;
 }
 
-constexpr auto bench_columns = std::make_tuple(
-    column("benchmark", &BenchRow::benchmark), column("quantity", &BenchRow::quantity),
-    column("value", &BenchRow::value), column("unit", &BenchRow::unit), column("spread", &BenchRow::spread));
-
 std::vector<Measured> benchmarks(const fs::path& file) {
   std::vector<Measured> found;
-  for (const BenchRow& row : read_csv(file, bench_columns))
+  for (const BenchRecord& row : read_csv(file, bench_columns))
     found.push_back(
         timed(row.benchmark + ", " + row.quantity, row.value, row.unit, sense_of(row.unit), row.spread));
   return found;

@@ -1,0 +1,100 @@
+#include "tests/bench/derived.hpp"
+
+#include <cmath>
+
+#include "tests/bench/work_count.hpp"
+
+namespace bench {
+namespace {
+
+constexpr const char* counter = "particle-steps";
+
+/// Least-squares slope of log cost over log number.
+double growth_exponent(const std::vector<double>& particles, const std::vector<double>& seconds) {
+  double x_mean = 0, y_mean = 0, xx = 0, xy = 0;
+  const auto n = static_cast<double>(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    x_mean += std::log(particles[i]) / n;
+    y_mean += std::log(seconds[i]) / n;
+  }
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const double x = std::log(particles[i]) - x_mean;
+    xx += x * x;
+    xy += x * (std::log(seconds[i]) - y_mean);
+  }
+  return xy / xx;
+}
+
+class Derivation {
+ public:
+  explicit Derivation(const Collector& rates) : rates_(rates) {}
+
+  void over_plain_loop() {
+    for (const std::string fluid : {"newtonian", "cross", "power_law"})
+      ratio("step/linear_" + fluid + "/800/1", "plain_step/" + fluid + "/800", "speed over the plain loop");
+  }
+
+  void growth() {
+    std::vector<double> particles, seconds;
+    for (const long n : {10'000L, 100'000L, 1'000'000L}) {
+      const std::string name = "step/linear_newtonian/" + std::to_string(n) + "/1";
+      if (!rates_.has(name)) return;
+      particles.push_back(static_cast<double>(n));
+      seconds.push_back(static_cast<double>(n) / rates_.rate(name, counter).value);
+    }
+    records_.push_back({"step/linear_newtonian", "exponent of cost in particles, 1e4 to 1e6",
+                        growth_exponent(particles, seconds), "1",
+                        rates_.rate("step/linear_newtonian/1000000/1", counter).spread});
+    ratio("step/linear_newtonian/800/1", "step/linear_newtonian/1000000/1",
+          "cost of a particle-step among 1e6 over that among 800");
+  }
+
+  void threads() {
+    ratio("step/linear_threads/1000000/2/real_time", "step/linear_threads/1000000/1/real_time",
+          "speed over one thread");
+  }
+
+  void peaks() {
+    if (!rates_.has("peak/arithmetic") || !rates_.has("peak/bandwidth/768")) return;
+    const Rate arithmetic = rates_.rate("peak/arithmetic", "operations");
+    const Rate bandwidth = rates_.rate("peak/bandwidth/768", "bytes");
+    const double operations = operations_per_particle_step();
+    records_.push_back({"step/linear_newtonian", "operations a particle-step", operations, "1", 0});
+    records_.push_back({"step/linear_newtonian", "bytes a particle-step", bytes_per_particle_step, "B", 0});
+    for (const std::string size : {"800", "1000000"}) {
+      const std::string name = "step/linear_newtonian/" + size + "/1";
+      if (!rates_.has(name)) continue;
+      const Rate rate = rates_.rate(name, counter);
+      records_.push_back({name, "part of peak arithmetic", rate.value * operations / arithmetic.value, "1",
+                          std::hypot(rate.spread, arithmetic.spread)});
+      records_.push_back({name, "part of peak bandwidth",
+                          rate.value * bytes_per_particle_step / bandwidth.value, "1",
+                          std::hypot(rate.spread, bandwidth.spread)});
+    }
+  }
+
+  [[nodiscard]] std::vector<reports::BenchRecord> records() const { return records_; }
+
+ private:
+  void ratio(const std::string& name, const std::string& over, const std::string& quantity) {
+    if (!rates_.has(name) || !rates_.has(over)) return;
+    const Rate a = rates_.rate(name, counter), b = rates_.rate(over, counter);
+    records_.push_back({name, quantity, a.value / b.value, "1", std::hypot(a.spread, b.spread)});
+  }
+
+  const Collector& rates_;
+  std::vector<reports::BenchRecord> records_;
+};
+
+}  // namespace
+
+std::vector<reports::BenchRecord> derived(const Collector& rates) {
+  Derivation derivation(rates);
+  derivation.over_plain_loop();
+  derivation.growth();
+  derivation.threads();
+  derivation.peaks();
+  return derivation.records();
+}
+
+}  // namespace bench
