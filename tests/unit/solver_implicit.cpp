@@ -43,7 +43,7 @@ struct Strip {
       FullMass{}.add_momentum<Basis>(Stencil<Basis>(grid, particles.position[p]), particles, p, grid.mass,
                                      grid.velocity);
     table.assign<Basis>(grid, particles);
-    mass.assemble(table, particles.mass);
+    mass.assemble<Basis>(table, grid, particles);
     for (std::size_t i = 0; i < grid.size(); ++i) grid.force[i] = grid.mass[i] * Vec2(body, 0);
   }
 

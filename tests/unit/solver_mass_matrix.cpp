@@ -3,6 +3,7 @@
 
 #include "solver/conjugate_gradients.hpp"
 #include "solver/seeding.hpp"
+#include "solver/stencil.hpp"
 #include "solver/stencil_matrix.hpp"
 #include "solver/tensor_mass.hpp"
 #include "tests/catch.hpp"

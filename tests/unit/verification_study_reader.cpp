@@ -121,3 +121,52 @@ TEST_CASE("a NaN never passes, whatever the bounds") {
   CHECK(judge(spec, data, "two-sided", 2.0, "1").verdict == "pass");
   CHECK(judge(spec, data, "two-sided", infinity, "1").verdict == "fail");
 }
+
+TEST_CASE("a ladder in the Mach number sets the speed of sound") {
+  const std::string scene = R"(title = "T"
+claim = "C"
+[scene]
+flow = "taylor-green"
+period = 1.0
+amplitude = 2.0
+[fluid]
+kinematic_viscosity = 0.01
+density = 900
+[discretisation]
+cells = 8
+[scheme]
+reset_every = 7
+[time]
+end = 0.01
+[ladder]
+axis = "mach"
+mach = [0.2, 0.05]
+theoretical = 2
+[[check]]
+kind = "order"
+lower = 1.9
+upper = 2.1
+reason = "theory"
+)";
+  const Study study = read(scene);
+  REQUIRE(study.runs.size() == 2);
+  CHECK(study.runs[0].scene.scene.fluid.sound_speed() == Approx(10));
+  CHECK(study.runs[1].scene.scene.fluid.sound_speed() == Approx(40));
+  CHECK(study.runs[1].step == 0.05);
+  CHECK(study.runs[0].run.ends_with(".ma0.2"));
+  CHECK(study.runs[0].scene.scheme.reset_every == 7);
+  // The unit of errors decays with the flow: U/sqrt(2) exp(-2 nu k^2 t).
+  const Flow& flow = *study.runs[0].scene.flow;
+  CHECK(flow.velocity_scale_at(1) == Approx(std::sqrt(2.0) * std::exp(-0.02 * 39.47841760435743)));
+
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    std::string text = scene;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  CHECK_THROWS_WITH(read(replaced("[0.2, 0.05]", "[0.05, 0.2]")), contains("coarse to fine"));
+  CHECK_THROWS_WITH(read(replaced("[0.2, 0.05]", "[0.7, 0.2]")), contains("half the speed of sound"));
+  CHECK_THROWS_WITH(read(replaced("reset_every = 7", "reset_every = -1")), contains("scheme.reset_every"));
+  CHECK_THROWS_WITH(read(replaced("reset_every = 7", "reset_strain = 0")), contains("scheme.reset_strain"));
+  CHECK_THROWS_WITH(read(replaced("end = 0.01", "end = 0.01\nstart = 0.005")), contains("time.start"));
+  CHECK_THROWS_WITH(read(replaced("density = 900", "pressure = false")), contains("pressure"));
+}
