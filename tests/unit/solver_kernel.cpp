@@ -37,12 +37,11 @@ template <class Basis>
 std::unique_ptr<Simulation> plain_solver(const Scene& scene, const Scheme& scheme) {
   switch (scheme.transfer) {
     case Scheme::Transfer::Pic:
-      return std::make_unique<Solver<Basis, Pic>>(scene, scheme.stepping, Pic{});
+      return std::make_unique<Solver<Basis, Pic>>(scene, scheme, Pic{});
     case Scheme::Transfer::FlipBlend:
-      return std::make_unique<Solver<Basis, FlipBlend>>(scene, scheme.stepping,
-                                                        FlipBlend{scheme.flip_fraction});
+      return std::make_unique<Solver<Basis, FlipBlend>>(scene, scheme, FlipBlend{scheme.flip_fraction});
     default:
-      return std::make_unique<Solver<Basis, Flip>>(scene, scheme.stepping, Flip{});
+      return std::make_unique<Solver<Basis, Flip>>(scene, scheme, Flip{});
   }
 }
 
@@ -213,7 +212,7 @@ TEST_CASE("the benchmark's plain loop gives the solver's answer") {
     }
     const Particles& p = simulation->particles();
     VectorField velocity, position;
-    for (const plain::Particle& q : loop.particles()) {
+    for (const auto& q : loop.particles()) {
       velocity.emplace_back(q.u, q.v);
       position.emplace_back(q.x, q.y);
     }

@@ -38,8 +38,8 @@ class ByteWriter {
     put_all(t, location, x, y, u, v, u_exact, v_exact);
   }
   void put_row(const reports::HistoryRow& row) {
-    const auto& [t, probe, probe_exact, mass, mx, my, ix, iy, energy] = row;
-    put_all(t, probe, probe_exact, mass, mx, my, ix, iy, energy);
+    const auto& [t, probe, probe_exact, mass, mx, my, ix, iy, energy, energy_exact] = row;
+    put_all(t, probe, probe_exact, mass, mx, my, ix, iy, energy, energy_exact);
   }
   void put_row(const reports::ShearRow& row) {
     const auto& [t, location, place, rate, ratio] = row;
@@ -107,8 +107,8 @@ class ByteReader {
     get_all(t, location, x, y, u, v, u_exact, v_exact);
   }
   void get_row(reports::HistoryRow& row) {
-    auto& [t, probe, probe_exact, mass, mx, my, ix, iy, energy] = row;
-    get_all(t, probe, probe_exact, mass, mx, my, ix, iy, energy);
+    auto& [t, probe, probe_exact, mass, mx, my, ix, iy, energy, energy_exact] = row;
+    get_all(t, probe, probe_exact, mass, mx, my, ix, iy, energy, energy_exact);
   }
   void get_row(reports::ShearRow& row) {
     auto& [t, location, place, rate, ratio] = row;
