@@ -148,8 +148,9 @@ TEST_CASE("vector kernels: every rheology, with pressure and without") {
 
 TEST_CASE("vector kernels: walls on all sides, on any two, on none; wide, tall and one cell across") {
   for (const Scheme::Basis basis : bases)
-    for (const auto& [nx, ny] : {std::pair{6, 5}, {1, 9}, {9, 1}, {2, 3}, {17, 20}, {23, 3}})
+    for (const auto& size : {std::pair{6, 5}, {1, 9}, {9, 1}, {2, 3}, {17, 20}, {23, 3}})
       for (int walls = 0; walls < 4; ++walls) {
+        const int nx = size.first, ny = size.second;
         INFO(nx << " x " << ny << ", walls " << walls);
         Scene scene = whirl(nx, ny);
         // At walls a flow through them would leave; along a single cell nothing may vary.
