@@ -1,11 +1,11 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "solver/boundary.hpp"
 #include "solver/kernel/isa.hpp"
 #include "solver/kernel/thread_team.hpp"
+#include "solver/motion.hpp"
 #include "solver/seeding.hpp"
 #include "solver/simulation.hpp"
 #include "solver/stencil.hpp"
@@ -155,12 +155,7 @@ class LaneSolver final : public Simulation {
   }
 
   void judge(const Motion& motion) {
-    if (!std::isfinite(motion.energy))
-      breakdown_ = "velocity is not finite";
-    else if (!motion.inside)
-      breakdown_ = "a particle left the domain";
-    else if (!motion.dense)
-      breakdown_ = "density is not positive";
+    if (!breakdown_) breakdown_ = breakdown_of(motion);
   }
 
   /// A node on a wall, by its number in the kernel, and the sides that give its two components.

@@ -1,11 +1,12 @@
 #pragma once
 
-#include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "solver/boundary.hpp"
 #include "solver/implicit_viscosity.hpp"
+#include "solver/motion.hpp"
+#include "solver/nodal_forces.hpp"
 #include "solver/particle_reset.hpp"
 #include "solver/seeding.hpp"
 #include "solver/simulation.hpp"
@@ -101,7 +102,7 @@ class Solver final : public Simulation {
     forces(t);
     accelerate(t, dt);
     grid_to_particles(dt);
-    move_particles(dt);
+    move_with_grid(dt);
   }
 
   /// Update stress last: strain rate from the nodal velocity at the end of the step.
@@ -111,7 +112,7 @@ class Solver final : public Simulation {
     accelerate(t, dt);
     grid_to_particles(dt);
     (*update_stress_)(particles_, grid_, grid_.velocity, dt);
-    move_particles(dt);
+    move_with_grid(dt);
   }
 
   /// Modified update stress last: strain rate from the updated particles mapped back to the grid, with the
@@ -123,7 +124,7 @@ class Solver final : public Simulation {
     grid_to_particles(dt);
     map_velocity(t + dt, grid_, grid_.mapped, mass_, table_);
     (*update_stress_)(particles_, grid_, grid_.mapped, dt);
-    move_particles(dt);
+    move_with_grid(dt);
   }
 
   /// Second order: half a drift of positions and densities, a kick of the velocities by the explicit midpoint
@@ -154,7 +155,7 @@ class Solver final : public Simulation {
     impulse_ += dt * body_force_ + wall_impulse;
     accelerate_between(start_velocity_, dt);
     grid_to_particles(dt);
-    move_particles(dt);
+    move_with_grid(dt);
   }
 
   /// As the leapfrog, with the kick by a singly diagonally implicit Runge-Kutta rule of two stages (Alexander
@@ -228,33 +229,17 @@ class Solver final : public Simulation {
     return total;
   }
 
-  /// f_i = m_i b + sum_p N_ip m_p b_p - sum_p (m_p/rho_p) sigma_p grad N_ip (paper Eq. 17).
+  /// Body forces at time t [s], and those of the particles' stress.
   void forces(double t) {
-    const Vec2 b = scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero());
-    body_force_ = Vec2::Zero();
-    for (std::size_t i = 0; i < grid_.size(); ++i) {
-      grid_.force[i] = grid_.mass[i] * b;
-      body_force_ += grid_.force[i];
+    std::fill(grid_.force.begin(), grid_.force.end(), Vec2::Zero());
+    body_force_ =
+        add_body_forces(grid_, scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero()));
+    if (scene_.acceleration_field) {
+      particle_acceleration_.resize(particles_.size());
+      scene_.acceleration_field(particles_.position, t, particle_acceleration_);
+      body_force_ += add_particle_forces<Basis>(grid_, particles_, particle_acceleration_);
     }
-    if (scene_.acceleration_field) add_acceleration_field(t);
-    for (std::size_t p = 0; p < particles_.size(); ++p) {
-      const Mat2 volume_stress = (particles_.mass[p] / particles_.density[p]) * particles_.stress[p];
-      Stencil<Basis>(grid_, particles_.position[p]).gradients([&](std::size_t i, const Vec2& dn) {
-        grid_.force[i] -= volume_stress * dn;
-      });
-    }
-  }
-
-  void add_acceleration_field(double t) {
-    particle_acceleration_.resize(particles_.size());
-    scene_.acceleration_field(particles_.position, t, particle_acceleration_);
-    for (std::size_t p = 0; p < particles_.size(); ++p) {
-      const Vec2 force = particles_.mass[p] * particle_acceleration_[p];
-      body_force_ += force;
-      Stencil<Basis>(grid_, particles_.position[p]).values([&](std::size_t i, double n) {
-        grid_.force[i] += n * force;
-      });
-    }
+    add_stress_forces<Basis>(grid_, particles_);
   }
 
   /// a = M^-1 f, prescribed on walls; then v_i += dt a_i.
@@ -317,7 +302,7 @@ class Solver final : public Simulation {
   /// The same with the nodal velocity that stands.
   void drift_on(double dt) {
     update_stress_->compress(particles_, grid_, grid_.velocity, dt);
-    move_particles(dt);
+    move_with_grid(dt);
   }
 
   /// The second half of a drift, with the velocity that the particles have at the end of the step.
@@ -333,33 +318,18 @@ class Solver final : public Simulation {
   /// The same for particles whose velocity is the grid's: along straight lines, without another projection.
   void drift_straight(double dt) {
     strain_straight(particles_, dt, scene_.fluid.pressure);
-    move_particles(dt, [&](std::size_t p) { return particles_.velocity[p]; });
+    judge(move_particles(grid_, particles_, dt, [&](std::size_t p) { return particles_.velocity[p]; }));
   }
 
   /// Particles follow the interpolated grid velocity (the paper's Eq. 20 uses their own).
-  void move_particles(double dt) {
-    move_particles(
-        dt, [&](std::size_t p) { return interpolate<Basis>(grid_, grid_.velocity, particles_.position[p]); });
+  void move_with_grid(double dt) {
+    judge(move_particles(grid_, particles_, dt, [&](std::size_t p) {
+      return interpolate<Basis>(grid_, grid_.velocity, particles_.position[p]);
+    }));
   }
 
-  /// x in periodic directions wraps. The same loop finds a state that cannot be continued from.
-  template <class Velocity>
-  void move_particles(double dt, const Velocity& velocity) {
-    double energy = 0;
-    bool inside = true, dense = true;
-    for (std::size_t p = 0; p < particles_.size(); ++p) {
-      Vec2& x_p = particles_.position[p];
-      x_p += dt * velocity(p);
-      inside &= grid_.x.contain(x_p.x()) && grid_.y.contain(x_p.y());
-      dense &= particles_.density[p] > 0;
-      energy += particles_.velocity[p].squaredNorm();
-    }
-    if (!std::isfinite(energy))
-      breakdown_ = "velocity is not finite";
-    else if (!inside)
-      breakdown_ = "a particle left the domain";
-    else if (!dense)
-      breakdown_ = "density is not positive";
+  void judge(const Motion& motion) {
+    if (!breakdown_) breakdown_ = breakdown_of(motion);
   }
 
   const Scene& scene_;
