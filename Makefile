@@ -5,13 +5,16 @@ BUILD   ?= build
 RESULTS ?= results
 PROGRAM  = $(BUILD)/verification/mpm-verify
 
-.PHONY: verify verify-quick test bench program packages configure clean
+.PHONY: verify verify-quick verify-deep test bench program packages configure clean
 
 verify: program
 	$(PROGRAM) run --suite full --out $(RESULTS)
 
 verify-quick: program
 	$(PROGRAM) run --suite quick --out $(RESULTS)-quick
+
+verify-deep: program
+	$(PROGRAM) run --suite deep --out $(RESULTS)-deep
 
 test: configure
 	cmake --build $(BUILD)
