@@ -42,7 +42,7 @@ code { font-size: .9em; overflow-wrap: anywhere; } td { overflow-wrap: break-wor
 .board { width: min(96vw, 120rem); margin-left: calc(50% - min(48vw, 60rem)); overflow: auto; max-height: 92vh; }
 .board table { font-size: .66rem; line-height: 1.3; border-collapse: separate; border-spacing: 1px; }
 .board th, .board td { padding: .1rem .1rem; border: 0; white-space: nowrap; }
-.board thead th { position: sticky; top: 0; z-index: 2; vertical-align: bottom; font-weight: 600; }
+.board thead th { position: sticky; top: 0; z-index: 2; padding-top: .4rem; vertical-align: bottom; font-weight: 600; }
 .board thead th span { writing-mode: vertical-rl; transform: rotate(180deg); }
 .board tbody th { position: sticky; left: 0; z-index: 1; font-weight: 400; }
 .board thead th:first-child { left: 0; z-index: 3; } .board tr.group th { font-weight: 700; padding-top: .5rem; }
