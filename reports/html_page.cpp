@@ -40,13 +40,13 @@ figure img { display: block; width: 100%; max-width: 60rem; height: auto; backgr
   border: 1px solid var(--rule); border-radius: .35rem; }
 code { font-size: .9em; overflow-wrap: anywhere; } td { overflow-wrap: break-word; }
 .board { width: min(96vw, 120rem); margin-left: calc(50% - min(48vw, 60rem)); overflow: auto; max-height: 92vh; }
-.board table { font-size: .72rem; line-height: 1.25; border-collapse: separate; border-spacing: 1px; }
-.board th, .board td { padding: .12rem .25rem; border: 0; white-space: nowrap; }
-.board thead th { position: sticky; top: 0; z-index: 2; vertical-align: bottom; font-weight: 600; }
+.board table { font-size: .66rem; line-height: 1.3; border-collapse: separate; border-spacing: 1px; }
+.board th, .board td { padding: .1rem .1rem; border: 0; white-space: nowrap; }
+.board thead th { position: sticky; top: 0; z-index: 2; padding-top: .4rem; vertical-align: bottom; font-weight: 600; }
 .board thead th span { writing-mode: vertical-rl; transform: rotate(180deg); }
 .board tbody th { position: sticky; left: 0; z-index: 1; font-weight: 400; }
 .board thead th:first-child { left: 0; z-index: 3; } .board tr.group th { font-weight: 700; padding-top: .5rem; }
-.board td { text-align: center; min-width: 2.4rem; } .board td.none { color: var(--faint); }
+.board td { text-align: center; min-width: 1.9rem; } .board td.none { color: var(--faint); }
 .fate { padding: 0 .25rem; } .survived { background: #cfe4f7; color: #0b2a45; } .degraded { background: #f5b942; color: #2b1c00; }
 .diverged, .failed { background: #8f2a16; color: #ffffff; } .unexpected { outline: 3px solid #ff0033; outline-offset: -1px; font-weight: 700; }
 @media print { .board { overflow: visible; max-height: none; width: auto; margin: 0; } .board table { font-size: 5pt; }

@@ -33,7 +33,7 @@ std::string optional(double value) {
 }
 
 std::string cell(const ScoreRecord& s) {
-  const std::string value = s.outcome == "diverged" ? brief(s.t_diverged) + " s" : brief(s.error);
+  const std::string value = s.outcome == "diverged" ? brief(s.t_diverged) : brief(s.error);
   std::string hover = fmt::format("{}, {}: {}", s.hard_case, s.scheme, s.outcome);
   if (s.outcome == "diverged")
     hover += fmt::format(" after {} s ({})", optional(s.t_diverged), s.status);
@@ -41,15 +41,17 @@ std::string cell(const ScoreRecord& s) {
     hover += fmt::format(", relative L2 error {} ({}), energy ratio {}", optional(s.error), s.location,
                          optional(s.energy_ratio));
   hover += fmt::format("; expected: {}, {}", s.expected, s.reason);
-  return fmt::format("<td class=\"{}{}\" title=\"{}\">{} {}{}</td>", html_text(s.outcome),
+  return fmt::format("<td class=\"{}{}\" title=\"{}\">{}{}{}</td>", html_text(s.outcome),
                      as_expected(s) ? "" : " unexpected", html_text(hover), mark(s.outcome), value,
                      as_expected(s) ? "" : "<br>expected " + html_text(s.expected));
 }
 
-/// "flip, usf" under its basis, or a variant's own name.
+/// "flip, usf" under its basis, "flip, usf, reset" for a variant linear_flip_usf_reset, or its own name.
 std::string row_label(const ScoreRecord& s) {
-  return s.scheme == s.basis + "_" + s.transfer + "_" + s.stepping ? s.transfer + ", " + s.stepping
-                                                                   : s.scheme;
+  const std::string parts = s.basis + "_" + s.transfer + "_" + s.stepping;
+  const std::string label = s.transfer + ", " + s.stepping;
+  if (s.scheme == parts) return label;
+  return s.scheme.starts_with(parts + "_") ? label + ", " + s.scheme.substr(parts.size() + 1) : s.scheme;
 }
 
 std::string board(const std::vector<ScoreRecord>& scores, const std::vector<CaseSummary>& cases) {
@@ -120,12 +122,12 @@ std::string html_scoreboard(const std::vector<ScoreRecord>& scores) {
       "<p>Every scheme on every hard case: "
       "<span class=\"fate survived\">✓ error</span> survived, "
       "<span class=\"fate degraded\">~ error</span> degraded, "
-      "<span class=\"fate diverged\">✗ time</span> diverged. A red frame marks an outcome that "
+      "<span class=\"fate diverged\">✗ time [s]</span> diverged. A red frame marks an outcome that "
       "the study did not expect. <span class=\"faint\">Error: relative L2 error of velocity at "
       "the end; time: from the start until the root mean square velocity exceeded ten times its scale, or "
       "the "
       "run broke down; energy ratio (hover): kinetic energy of the particles over the exact "
-      "solution's at the same places.</span></p>\n" +
+      "solution's at the same places, - for a fluid at rest.</span></p>\n" +
       board(scores, cases) + "<details open><summary>What was expected, and why</summary>\n";
   for (const CaseSummary& c : cases) text += notes(scores, c);
   return text + "</details>\n</section>\n";

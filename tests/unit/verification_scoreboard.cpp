@@ -174,6 +174,20 @@ TEST_CASE("what became of a run: its error, its energy, its end") {
   CHECK(failed.verdict == "fail");
 }
 
+TEST_CASE("a fluid at rest has no energy ratio: without a band its error alone judges") {
+  const Study study = read(with("energy_ratio = [0.5, 1.5]\n", "")), band = read(good);
+  const auto at_rest = [](const Study& s, double error) {
+    RunData run = ended(s, error, 1);
+    for (reports::ProfileRow& row : run.profile) row.u_exact = row.v_exact = 0;
+    return run;
+  };
+  CHECK(std::isnan(energy_ratio(at_rest(study, 0), 0.02)));
+  CHECK(outcome_of(study, at_rest(study, 0.09)) == "survived");
+  CHECK(outcome_of(study, at_rest(study, 0.11)) == "degraded");
+  CHECK(outcome_of(study, at_rest(study, not_a_number)) == "diverged");
+  CHECK(outcome_of(band, at_rest(band, 0.09)) == "degraded");
+}
+
 TEST_CASE("an unexpected failure is red, and so is an unexpected survival") {
   const auto verdict = [](const Study& study, const RunData& run) {
     StudyData data;

@@ -29,6 +29,12 @@ double rms_velocity(const reports::HistoryRow& row) {
   return std::sqrt(2 * row.kinetic_energy / row.mass);
 }
 
+/// Without a band nothing is asked of the energy, as of a fluid at rest, which has no ratio.
+bool energy_in_band(const reports::ScoreRecord& score) {
+  if (score.energy_lower == 0 && std::isinf(score.energy_upper)) return true;
+  return score.energy_ratio >= score.energy_lower && score.energy_ratio <= score.energy_upper;
+}
+
 }  // namespace
 
 std::string name(Fate fate) {
@@ -91,8 +97,7 @@ reports::ScoreRecord score_of(const RunData& run, const Study& study) {
   if (!run.completed() || !std::isnan(t_diverged) || !(record.error <= Scoreboard::blown_up)) {
     fate = Fate::Diverged;
     record.t_diverged = (std::isnan(t_diverged) ? end : t_diverged) - run.plan->scene.start;
-  } else if (record.error > board.degraded_above || !(record.energy_ratio >= board.energy_lower) ||
-             !(record.energy_ratio <= board.energy_upper)) {
+  } else if (record.error > board.degraded_above || !energy_in_band(record)) {
     fate = Fate::Degraded;
   }
   record.outcome = name(fate);
