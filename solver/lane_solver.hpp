@@ -49,6 +49,7 @@ class LaneSolver final : public Simulation {
 
   void advance(double t, double dt) override {
     is_stale_ = true;
+    time_ = t + dt;
     switch (stepping_) {
       case Scheme::Stepping::Usl:
         return step_usl(t, dt);
@@ -267,7 +268,12 @@ class LaneSolver final : public Simulation {
     return velocity;
   }
 
+  /// Update stress first keeps no stress: a reader gets that of the present state.
   void gather_particles() const {
+    if (stepping_ == Scheme::Stepping::Usf) {
+      map_velocity(time_, NodalVelocity::Mapped);
+      kernel_->update_stress(NodalVelocity::Mapped, 0);
+    }
     std::vector<PointState> points(particles_.size());
     kernel_->gather(points.data());
     for (std::size_t p = 0; p < points.size(); ++p) {
@@ -294,7 +300,7 @@ class LaneSolver final : public Simulation {
   std::unique_ptr<Kernel> kernel_;
   NodeFields nodes_;
   std::vector<WallNode> wall_nodes_;
-  double total_mass_ = 0;
+  double total_mass_ = 0, time_ = 0;
   Vec2 impulse_ = Vec2::Zero();
   std::optional<std::string> breakdown_;
 };

@@ -16,7 +16,12 @@ namespace mpm::MPM_ISA {
 struct Slot {
   Lanes x[2], v[2];    ///< position [m], velocity [m/s]
   Lanes mass, volume;  ///< per unit depth [kg/m], [m2]; both zero in an empty lane
-  Lanes stress[3];     ///< sigma_00, sigma_11, sigma_01 [Pa]
+};
+
+/// Stress of a slot's particles [Pa]. Only schemes that use it in a later pass than the one that sets it keep
+/// it, so it lies apart.
+struct Stress {
+  Lanes s_00, s_11, s_01;
 };
 
 /// What a slot's particles were called when they came.
@@ -74,7 +79,11 @@ class Cells {
       }
       slot.mass[to.lane] = point.mass;
       slot.volume[to.lane] = point.mass / point.density;
-      for (int c : {0, 1, 2}) slot.stress[c][to.lane] = point.stress[c];
+      const auto& [s_00, s_11, s_01] = point.stress;
+      Stress& stress = stresses_[place_of(to)];
+      stress.s_00[to.lane] = s_00;
+      stress.s_11[to.lane] = s_11;
+      stress.s_01[to.lane] = s_01;
     }
   }
 
@@ -84,6 +93,9 @@ class Cells {
   [[nodiscard]] const Block& block(int cell) const { return blocks_[static_cast<std::size_t>(cell / width)]; }
   [[nodiscard]] std::span<Slot> slots(const Block& block) {
     return {slots_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
+  }
+  [[nodiscard]] std::span<Stress> stresses(const Block& block) {
+    return {stresses_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
   }
   [[nodiscard]] std::span<const Slot> slots(const Block& block) const {
     return {slots_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
@@ -121,11 +133,12 @@ class Cells {
         for (int k = 0; k < block.count[lane]; ++k) {
           const std::size_t at = block.first_slot + static_cast<std::size_t>(k);
           const Slot& slot = slots_[at];
+          const Stress& stress = stresses_[at];
           points[names_[at].of[lane]] = {{slot.x[0][lane], slot.x[1][lane]},
                                          {slot.v[0][lane], slot.v[1][lane]},
                                          slot.mass[lane],
                                          slot.mass[lane] / slot.volume[lane],
-                                         {slot.stress[0][lane], slot.stress[1][lane], slot.stress[2][lane]}};
+                                         {stress.s_00[lane], stress.s_11[lane], stress.s_01[lane]}};
         }
   }
 
@@ -163,6 +176,7 @@ class Cells {
       if (block.size == block.capacity) grow(block);
       ++block.size;
       slot_at(at) = empty_slot(block);
+      stresses_[place_of(at)] = {0, 0, 0};
     }
     return at;
   }
@@ -171,10 +185,14 @@ class Cells {
   [[gnu::noinline]] void grow(Block& block) {
     block.capacity = 2 * std::max(1, block.capacity);
     if (end_ + static_cast<std::size_t>(block.capacity) > slots_.size()) return store_anew();
-    std::copy_n(slots_.begin() + static_cast<std::ptrdiff_t>(block.first_slot), block.size,
-                slots_.begin() + static_cast<std::ptrdiff_t>(end_));
-    std::copy_n(names_.begin() + static_cast<std::ptrdiff_t>(block.first_slot), block.size,
-                names_.begin() + static_cast<std::ptrdiff_t>(end_));
+    const auto move = [&](auto& array) {
+      const auto begin = array.begin();
+      std::copy_n(begin + static_cast<std::ptrdiff_t>(block.first_slot), block.size,
+                  begin + static_cast<std::ptrdiff_t>(end_));
+    };
+    move(slots_);
+    move(stresses_);
+    move(names_);
     block.first_slot = end_;
     end_ += static_cast<std::size_t>(block.capacity);
   }
@@ -184,17 +202,20 @@ class Cells {
     std::size_t total = 0;
     for (const Block& block : blocks_) total += static_cast<std::size_t>(block.capacity);
     LargeArray<Slot> slots(total + total / 4 + 16);
+    LargeArray<Stress> stresses(slots.size());
     LargeArray<Names> names(slots.size());
     end_ = 0;
     for (Block& block : blocks_) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(block.size); ++k) {
         slots[end_ + k] = slots_[block.first_slot + k];
+        stresses[end_ + k] = stresses_[block.first_slot + k];
         names[end_ + k] = names_[block.first_slot + k];
       }
       block.first_slot = end_;
       end_ += static_cast<std::size_t>(block.capacity);
     }
     slots_.swap(slots);
+    stresses_.swap(stresses);
     names_.swap(names);
   }
 
@@ -209,6 +230,11 @@ class Cells {
 
   void copy(const Address& from, const Address& to) {
     copy_lane(slot_at(from), slot_at(to), from.lane, to.lane);
+    const Stress& stress = stresses_[place_of(from)];
+    Stress& copied = stresses_[place_of(to)];
+    copied.s_00[to.lane] = stress.s_00[from.lane];
+    copied.s_11[to.lane] = stress.s_11[from.lane];
+    copied.s_01[to.lane] = stress.s_01[from.lane];
     name_at(to) = name_at(from);
   }
 
@@ -219,7 +245,6 @@ class Cells {
     }
     to.mass[to_lane] = from.mass[from_lane];
     to.volume[to_lane] = from.volume[from_lane];
-    for (int c : {0, 1, 2}) to.stress[c][to_lane] = from.stress[c][from_lane];
   }
 
   [[nodiscard]] Slot empty_slot(const Block& block) const {
@@ -229,7 +254,6 @@ class Cells {
       slot.v[c] = 0;
     }
     slot.mass = slot.volume = 0;
-    for (Lanes& s : slot.stress) s = 0;
     return slot;
   }
 
@@ -251,6 +275,7 @@ class Cells {
   int stride_, degree_;
   std::vector<Block> blocks_;
   LargeArray<Slot> slots_;  // of one block after another
+  LargeArray<Stress> stresses_;
   LargeArray<Names> names_;
   std::size_t end_ = 0;  // of the slots that blocks have reserved
   std::vector<std::vector<Lanes>> polynomials_;

@@ -64,7 +64,7 @@ class Kernel {
   virtual void update_stress(NodalVelocity from, double dt) = 0;
   /// Nodal forces of the stress that the particles have.
   virtual void forces() = 0;
-  /// update_stress() from the current velocity, and forces().
+  /// update_stress() from the current velocity, and forces(); the stress is not kept.
   virtual void update_stress_and_forces(double dt) = 0;
   /// a_i = f_i/m_i + b, v_i += dt a_i; walls are not imposed.
   virtual void accelerate(const double body_acceleration[2], double dt) = 0;

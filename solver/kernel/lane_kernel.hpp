@@ -43,7 +43,7 @@ class LaneKernel final : public Kernel {
   void map_velocity(NodalVelocity to) override {
     double* const v_i[2] = {velocity_field(to)[0], velocity_field(to)[1]};
     scatter<3>({field(mass), v_i[0], v_i[1]}, [&](const Block&) {
-      return [](const Slot& p, const CellWeights<Basis>& n_p, auto& sum) {
+      return [](int, const Slot& p, const CellWeights<Basis>& n_p, auto& sum) {
         n_p.values([&](int i, Lanes n) {
           const Lanes n_m = n * p.mass;
           sum[0][i] += n_m;
@@ -63,15 +63,17 @@ class LaneKernel final : public Kernel {
     with_fluid([&](const auto& law, const auto& pressure) {
       each_block([&](const Block& block, Found&) {
         const NodesOfCells<Basis> v(basis_, block, velocity_field(from).data());
-        for (Slot& p : cells_.slots(block))
-          set_stress(p, CellWeights<Basis>(basis_, block, p.x), v, law, pressure, dt);
+        const auto stress = cells_.stresses(block).begin();
+        for (int k = 0; Slot & p : cells_.slots(block))
+          stress[k++] = stress_of(p, CellWeights<Basis>(basis_, block, p.x), v, law, pressure, dt);
       });
     });
   }
 
   void forces() override {
-    scatter<2>({field(force), field(force + 1)}, [&](const Block&) {
-      return [](const Slot& p, const CellWeights<Basis>& n_p, auto& sum) { add_force(p, n_p, sum); };
+    scatter<2>({field(force), field(force + 1)}, [&](const Block& block) {
+      return [stress = cells_.stresses(block).begin()](int k, const Slot& p, const CellWeights<Basis>& n_p,
+                                                       auto& sum) { add_force(p, stress[k], n_p, sum); };
     });
   }
 
@@ -79,9 +81,8 @@ class LaneKernel final : public Kernel {
     with_fluid([&](const auto& law, const auto& pressure) {
       scatter<2>({field(force), field(force + 1)}, [&](const Block& block) {
         const NodesOfCells<Basis> v(basis_, block, velocity_field(NodalVelocity::Current).data());
-        return [=, &law, &pressure](Slot& p, const CellWeights<Basis>& n_p, auto& sum) {
-          set_stress(p, n_p, v, law, pressure, dt);
-          add_force(p, n_p, sum);
+        return [=, &law, &pressure](int, Slot& p, const CellWeights<Basis>& n_p, auto& sum) {
+          add_force(p, stress_of(p, n_p, v, law, pressure, dt), n_p, sum);
         };
       });
     });
@@ -136,8 +137,8 @@ class LaneKernel final : public Kernel {
   /// D from the nodal velocity; volume V (1 + dt tr D), density m/V; sigma = 2 mu D - (2/3 mu tr D + P) I
   /// (paper Eqs. 21 to 25).
   template <class Law, class Pressure>
-  static void set_stress(Slot& p, const CellWeights<Basis>& n_p, const NodesOfCells<Basis>& v, const Law& law,
-                         const Pressure& pressure, double dt) {
+  static Stress stress_of(Slot& p, const CellWeights<Basis>& n_p, const NodesOfCells<Basis>& v,
+                          const Law& law, const Pressure& pressure, double dt) {
     Lanes d_00 = 0, d_11 = 0, d_01 = 0, d_10 = 0;
     n_p.gradients([&](int i, Lanes dn_0, Lanes dn_1) {
       d_00 += v.at[0][i] * dn_0;
@@ -156,15 +157,13 @@ class LaneKernel final : public Kernel {
       p.volume = p.volume * (1 + dt * dilatation);
       isotropic = isotropic - pressure.pressure(p.mass / select(p.mass > 0, p.volume, 1));
     }
-    p.stress[0] = 2 * mu * d_00 + isotropic;
-    p.stress[1] = 2 * mu * d_11 + isotropic;
-    p.stress[2] = 2 * mu * shear;
+    return {2 * mu * d_00 + isotropic, 2 * mu * d_11 + isotropic, 2 * mu * shear};
   }
 
   /// f_i -= V_p sigma_p grad N_ip, V_p = m_p/rho_p (paper Eq. 17)
   template <class Sum>
-  static void add_force(const Slot& p, const CellWeights<Basis>& n_p, Sum& sum) {
-    const Lanes s_00 = p.volume * p.stress[0], s_11 = p.volume * p.stress[1], s_01 = p.volume * p.stress[2];
+  static void add_force(const Slot& p, const Stress& s, const CellWeights<Basis>& n_p, Sum& sum) {
+    const Lanes s_00 = p.volume * s.s_00, s_11 = p.volume * s.s_11, s_01 = p.volume * s.s_01;
     n_p.gradients([&](int i, Lanes dn_0, Lanes dn_1) {
       sum[0][i] -= s_00 * dn_0 + s_01 * dn_1;
       sum[1][i] -= s_01 * dn_0 + s_11 * dn_1;
@@ -235,7 +234,7 @@ class LaneKernel final : public Kernel {
   }
 
   /// Sums what particles give to the nodes of their cells: give(block) returns what a slot adds to its cells'
-  /// sums, (slot, weights, sum[field][node]).
+  /// sums, (number of the slot, slot, weights, sum[field][node]).
   template <int fields, class Give>
   void scatter(double* const (&nodes)[fields], Give&& give) {
     for (double* node : nodes) each_node([=](int i) { store(node + i, 0); });
@@ -248,7 +247,8 @@ class LaneKernel final : public Kernel {
           Lanes sum[fields][Basis::nodes];
           for (auto& row : sum) unroll<Basis::nodes>([&](int i) { row[i] = 0; });
           const auto add = give(block);
-          for (Slot& p : cells_.slots(block)) add(p, CellWeights<Basis>(basis_, block, p.x), sum);
+          for (int k = 0; Slot & p : cells_.slots(block))
+            add(k++, p, CellWeights<Basis>(basis_, block, p.x), sum);
           sums.put(cell, sum);
         }
         sums.add_to(nodes, basis_, first, cells);

@@ -80,7 +80,7 @@ double difference(const VectorField& a, const VectorField& b) {
 // that.
 constexpr double round_off = 1e-11;
 
-void require_same(const Simulation& a, const Simulation& b, double t) {
+void require_same(const Simulation& a, const Simulation& b, double t, bool compare_stress) {
   CHECK(difference(a.particles().velocity, b.particles().velocity) < round_off);
   CHECK(difference(a.particles().position, b.particles().position) < round_off);
   double density = 0, stress = 0, largest = 0;
@@ -90,7 +90,8 @@ void require_same(const Simulation& a, const Simulation& b, double t) {
     largest = std::max(largest, a.particles().stress[p].norm());
   }
   CHECK(density < round_off);
-  CHECK(stress <= 1e-9 * (largest + 143));  // pressure is 143 Pa times 7 times the change of density
+  if (compare_stress)
+    CHECK(stress <= 1e-9 * (largest + 143));  // pressure is 143 Pa times 7 times the change of density
   const VectorField points{{0.3 * cell, 0.2 * cell}, {1.7 * cell, 2.4 * cell}, {2.5 * cell, 3.1 * cell}};
   CHECK(difference(a.grid_field(points, t), b.grid_field(points, t)) < round_off);
   const Totals sum_a = a.totals(), sum_b = b.totals();
@@ -106,7 +107,8 @@ void require_same_as_plain(const Scene& scene, const Scheme& scheme, double dt =
     const auto plain = plain_solver(scene, scheme);
     run_steps(*vectors, dt, steps);
     run_steps(*plain, dt, steps);
-    require_same(*vectors, *plain, steps * dt);
+    // In USF the general solver keeps the stress that the last step began with, the kernels none.
+    require_same(*vectors, *plain, steps * dt, scheme.stepping != Scheme::Stepping::Usf);
   }
   use_isa(available_isas().back());
 }
@@ -145,8 +147,9 @@ TEST_CASE("vector kernels: every rheology, with pressure and without") {
 
 TEST_CASE("vector kernels: walls on all sides, on any two, on none; wide, tall and one cell across") {
   for (const Scheme::Basis basis : bases)
-    for (const auto& [nx, ny] : {std::pair{6, 5}, {1, 9}, {9, 1}, {2, 3}, {17, 20}, {23, 3}})
+    for (const auto& size : {std::pair{6, 5}, {1, 9}, {9, 1}, {2, 3}, {17, 20}, {23, 3}})
       for (int walls = 0; walls < 4; ++walls) {
+        const int nx = size.first, ny = size.second;
         INFO(nx << " x " << ny << ", walls " << walls);
         Scene scene = whirl(nx, ny);
         // At walls a flow through them would leave; along a single cell nothing may vary.
