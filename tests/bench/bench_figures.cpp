@@ -51,15 +51,22 @@ std::string size_figure(const Collector& rates) {
     const double height = rates.rate(peak, unit).value / work / 1e6;
     script.line({{800, height}, {1e6, height}}, "#555555", text, 1.5, dash);
   };
-  roof("peak/arithmetic", "operations", operations_per_particle_step(), "peak arithmetic of one core",
-       "dash");
+  roof("peak/arithmetic", "operations", operations_per_particle_step(), "peak arithmetic of one core", "2");
   roof("peak/bandwidth/768", "bytes", bytes_per_particle_step, "memory bandwidth of one core, nothing cached",
-       "dot");
+       "3");
   return script.empty() ? "" : script.text("bench-size");
 }
 
 std::string scheme_figure(const Collector& rates) {
-  FigureScript script("Rate of every basis and fluid, FLIP, 800 particles, one thread", "", rate_label);
+  std::string title = "Rate of every basis and fluid, FLIP, 800 particles, one thread";
+  const std::string linear = "step/linear_newtonian/800/1", cubic = "step/cubic_newtonian/800/1",
+                    power_law = "step/linear_power_law/800/1";
+  if (rates.has(linear) && rates.has(cubic) && rates.has(power_law))
+    title = fmt::format(
+        "Cubic splines cost {:.1f} times the linear basis, a power law {:.1f} times a Newtonian fluid (FLIP)",
+        millions(rates, linear) / millions(rates, cubic),
+        millions(rates, linear) / millions(rates, power_law));
+  FigureScript script(title, "", rate_label);
   script.logarithmic_y();
   script.statement("set xrange [0.5:4.5]");
   script.statement("set xtics ('plain loop, linear' 1, 'linear' 2, 'quadratic' 3, 'cubic' 4)");

@@ -13,12 +13,15 @@ Rate rate_of(std::vector<double> repetitions) {
 }
 
 void Collector::ReportRuns(const std::vector<Run>& runs) {
-  ConsoleReporter::ReportRuns(runs);
-  for (const Run& run : runs)
-    if (run.run_type == Run::RT_Iteration)
-      for (const auto& [counter, value] : run.counters)
-        if (value.flags & benchmark::Counter::kIsRate)
-          counters_[run.run_name.str()][counter].push_back(value);
+  std::vector<Run> shown;
+  for (const Run& run : runs) {
+    if (run.run_type == Run::RT_Aggregate && run.aggregate_name == "median") shown.push_back(run);
+    if (run.run_type == Run::RT_Aggregate) continue;
+    if (run.repetitions == 1) shown.push_back(run);
+    for (const auto& [counter, value] : run.counters)
+      if (value.flags & benchmark::Counter::kIsRate) counters_[run.run_name.str()][counter].push_back(value);
+  }
+  if (!shown.empty()) ConsoleReporter::ReportRuns(shown);
 }
 
 Rate Collector::rate(const std::string& benchmark, const std::string& counter) const {

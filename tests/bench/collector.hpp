@@ -17,10 +17,10 @@ struct Rate {
 };
 Rate rate_of(std::vector<double> repetitions);
 
-/// Prints as usual and keeps every counter of every repetition.
+/// Prints medians and keeps the rates of every repetition.
 class Collector final : public benchmark::ConsoleReporter {
  public:
-  Collector() : ConsoleReporter(OO_Tabular) {}
+  Collector() : ConsoleReporter(OO_None) {}
   void ReportRuns(const std::vector<Run>& runs) override;
 
   /// Rate that a benchmark counts under a name. Throws std::out_of_range for one that did not run.

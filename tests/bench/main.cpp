@@ -23,8 +23,7 @@ int run(int argc, char** argv) {
   const std::filesystem::path out = argv[1];
   // Repetitions in random order, so that a machine that slows down does so for all; the user's options win.
   std::string defaults[] = {"--benchmark_repetitions=5", "--benchmark_min_time=0.1",
-                            "--benchmark_enable_random_interleaving=true",
-                            "--benchmark_display_aggregates_only=true"};
+                            "--benchmark_enable_random_interleaving=true"};
   std::vector<char*> arguments{argv[0]};
   for (std::string& option : defaults) arguments.push_back(option.data());
   arguments.insert(arguments.end(), argv + 2, argv + argc);
