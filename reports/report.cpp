@@ -99,7 +99,8 @@ ReportOutcome write_report(const std::filesystem::path& dir, const FigureOptions
   data.results = read_results(dir);
   data.provenance = read_provenance(dir);
   warn_of_contradictions(data);
-  if (!data.provenance) data.warnings.emplace_back("no provenance.json: what made these results is not known");
+  if (!data.provenance)
+    data.warnings.emplace_back("no provenance.json: what made these results is not known");
   draw_figures(dir, data, options);
 
   write_file(dir / "report.md", markdown_report(data));

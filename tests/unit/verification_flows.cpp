@@ -69,7 +69,7 @@ TEST_CASE("wrong keys of the flows are refused by name") {
 TEST_CASE("the path error is the distance to the exact place, around the periodic box") {
   const PlannedRun plan = planned(translation);
   const RunData data = run(plan);
-  CHECK(evaluate({"path-error", 10e-3}, data) < 1e-12);  // 200 roundings of a place of 4 cells
+  CHECK(evaluate({"path-error", 10e-3}, data) < 1e-12);     // 200 roundings of a place of 4 cells
   CHECK(evaluate({"density-error", 10e-3}, data) < 1e-15);  // kept as a volume: two roundings
   CHECK(std::isnan(evaluate({"period-error"}, data)));
   CHECK(std::isnan(evaluate({"phase-error"}, data)));
