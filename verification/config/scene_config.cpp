@@ -114,8 +114,7 @@ std::vector<double> SceneConfig::reference_times() const {
   if (start > 0) times.push_back(start);
   times.insert(times.end(), more_reference_times.begin(), more_reference_times.end());
   std::ranges::sort(times);
-  const auto repeated = std::ranges::unique(times);
-  times.erase(repeated.begin(), repeated.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
 
