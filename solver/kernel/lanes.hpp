@@ -5,6 +5,7 @@
 // of that name, so that the linker never takes code of one instruction set for that of another.
 
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace mpm::MPM_ISA {
@@ -95,13 +96,14 @@ inline Lanes largest(Lanes a, Lanes b) {
   return select(a > b, a, b);
 }
 
+// From and to any address: nodes of a cell lie where they lie.
 inline Lanes load(const double* from) {
-  using Unaligned = double __attribute__((vector_size(MPM_LANES * sizeof(double)), aligned(8), may_alias));
-  return Vector(*reinterpret_cast<const Unaligned*>(from));
+  Vector lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
 }
 inline void store(double* to, Lanes x) {
-  using Unaligned = double __attribute__((vector_size(MPM_LANES * sizeof(double)), aligned(8), may_alias));
-  *reinterpret_cast<Unaligned*>(to) = x.v;
+  std::memcpy(to, &x.v, sizeof x.v);
 }
 
 inline double sum(Lanes x) {
