@@ -1,10 +1,11 @@
 #pragma once
 
-#include <cstdint>
+#include <span>
+#include <utility>
 
 #include "solver/boundary.hpp"
 #include "solver/kernel/isa.hpp"
-#include "solver/kernel/thread_team.hpp"
+#include "solver/kernel/sweep.hpp"
 #include "solver/motion.hpp"
 #include "solver/seeding.hpp"
 #include "solver/simulation.hpp"
@@ -37,13 +38,15 @@ class LaneSolver final : public Simulation {
         grid_(scene, Basis::degree),
         walls_(scene, grid_),
         team_(threads),
+        sweep_(lines(), stepping == Scheme::Stepping::Musl ? 4 : 3),
+        wall_impulse_(static_cast<std::size_t>(sweep_.shares())),
         particles_(started_particles()),
         kernel_(started_kernel()),
         nodes_(kernel_->nodes()) {
     for (const double m : particles_.mass) total_mass_ += m;
     list_wall_nodes();
-    map_velocity(0, NodalVelocity::Current);
-    kernel_->update_stress(NodalVelocity::Current, 0);
+    map_all(scene.start);
+    kernel_->update_stress(Sweep::whole(lines()), NodalVelocity::Current, 0);
     is_stale_ = true;
   }
 
@@ -89,84 +92,73 @@ class LaneSolver final : public Simulation {
  private:
   /// Update stress first: strain rate from the velocity at the start of the step.
   void step_usf(double t, double dt) {
-    particles_to_grid(t);
-    kernel_->update_stress_and_forces(dt);
-    accelerate(t, dt);
-    judge(kernel_->take_and_move(flip_fraction_, dt));
+    const Drive drive = drive_of(t, dt);
+    sweep_.run(
+        team_, [&](const Part& part) { particles_to_grid(part, drive); },
+        [&](const Part& part) {
+          kernel_->update_stress_and_accelerate(part, drive.body_acceleration, dt);
+          impose_acceleration(part, drive);
+        },
+        [&](const Part& part) { kernel_->take_and_move(part, flip_fraction_, dt); });
+    settle(drive);
   }
 
   /// Update stress last: strain rate from the nodal velocity at the end of the step.
   void step_usl(double t, double dt) {
-    particles_to_grid(t);
-    kernel_->forces();
-    accelerate(t, dt);
-    kernel_->update_stress(NodalVelocity::Current, dt);
-    judge(kernel_->take_and_move(flip_fraction_, dt));
+    const Drive drive = drive_of(t, dt);
+    sweep_.run(
+        team_, [&](const Part& part) { particles_to_grid(part, drive); },
+        [&](const Part& part) {
+          kernel_->accelerate(part, drive.body_acceleration, dt);
+          impose_acceleration(part, drive);
+        },
+        [&](const Part& part) {
+          kernel_->update_stress(part, NodalVelocity::Current, dt);
+          kernel_->take_and_move(part, flip_fraction_, dt);
+        });
+    settle(drive);
   }
 
   /// Modified update stress last: strain rate from the updated particles mapped back to the grid, with the
   /// shape functions of the start of the step.
   void step_musl(double t, double dt) {
-    particles_to_grid(t);
-    kernel_->forces();
-    accelerate(t, dt);
-    kernel_->take(flip_fraction_, dt);
-    map_velocity(t + dt, NodalVelocity::Mapped);
-    kernel_->update_stress(NodalVelocity::Mapped, dt);
-    judge(kernel_->move(dt));
+    const Drive drive = drive_of(t, dt);
+    const WallValues wall_at_end = wall_values(t + dt, &Side::velocity);
+    sweep_.run(
+        team_, [&](const Part& part) { particles_to_grid(part, drive); },
+        [&](const Part& part) {
+          kernel_->accelerate(part, drive.body_acceleration, dt);
+          impose_acceleration(part, drive);
+        },
+        [&](const Part& part) {
+          kernel_->take(part, flip_fraction_, dt);
+          kernel_->map_updated_velocity(part);
+          impose_velocity(part, wall_at_end, nodes_.mapped);
+        },
+        [&](const Part& part) {
+          kernel_->update_stress(part, NodalVelocity::Mapped, dt);
+          kernel_->move(part, dt);
+        });
+    settle(drive);
   }
 
-  /// P2G with the walls' velocity at t. Returns the momentum that imposing it adds.
-  Vec2 map_velocity(double t, NodalVelocity to) const {
-    kernel_->map_velocity(to);
-    double* const* velocity = to == NodalVelocity::Current ? nodes_.velocity : nodes_.mapped;
-    const WallValues wall = wall_values(t, &Side::velocity);
-    Vec2 imposed = Vec2::Zero();
-    for (const WallNode& node : wall_nodes_)
-      for (int c : {0, 1}) {
-        double& v = velocity[c][node.index];
-        if (!node.is_image) imposed[axis_of(c)] += nodes_.mass[node.index] * (wall[node.from[c]][c] - v);
-        v = wall[node.from[c]][c];
-      }
-    return imposed;
-  }
-
-  /// P2G at the start of a step. What the walls impose reaches the particles in so far as they take the
-  /// grid's velocity: an impulse of the walls.
-  void particles_to_grid(double t) {
-    impulse_ += (1 - flip_fraction_) * map_velocity(t, NodalVelocity::Current);
-  }
-
-  /// a_i = f_i/m_i + b, prescribed on walls; then v_i += dt a_i.
-  void accelerate(double t, double dt) {
-    const Vec2 b = scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero());
-    const double along_lanes[2] = {b[axis_of(0)], b[axis_of(1)]};
-    kernel_->accelerate(along_lanes, dt);
-    const WallValues wall = wall_values(t, &Side::acceleration);
-    impulse_ += dt * total_mass_ * b;
-    for (const WallNode& node : wall_nodes_)
-      for (int c : {0, 1}) {
-        double& a = nodes_.acceleration[c][node.index];
-        const double change = wall[node.from[c]][c] - a;
-        a += change;
-        nodes_.velocity[c][node.index] += dt * change;
-        if (!node.is_image) impulse_[axis_of(c)] += dt * nodes_.mass[node.index] * change;
-      }
-  }
-
-  void judge(const Motion& motion) {
-    if (!breakdown_) breakdown_ = breakdown_of(motion);
-  }
-
-  /// A node on a wall, by its number in the kernel, and the sides that give its two components.
-  struct WallNode {
-    int index;
-    bool is_image;  ///< of a periodic node that stands in the list, too
-    std::size_t from[2];
-  };
   using WallValues = std::array<std::array<double, 2>, 4>;
 
-  /// Velocity or acceleration of every wall at t, by component of the kernel.
+  /// What acts on the fluid from outside in a step, by component of the kernel.
+  struct Drive {
+    double dt;
+    double body_acceleration[2];
+    WallValues wall_velocity, wall_acceleration;
+  };
+  [[nodiscard]] Drive drive_of(double t, double dt) const {
+    const Vec2 b = scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero());
+    return {dt,
+            {b[axis_of(0)], b[axis_of(1)]},
+            wall_values(t, &Side::velocity),
+            wall_values(t, &Side::acceleration)};
+  }
+
+  /// Velocity or acceleration of every wall at t.
   WallValues wall_values(double t, std::function<Vec2(double)> Side::*quantity) const {
     WallValues values{};
     for (std::size_t edge = 0; edge < 4; ++edge) {
@@ -176,6 +168,79 @@ class LaneSolver final : public Simulation {
       for (int c : {0, 1}) values[edge][static_cast<std::size_t>(c)] = value[axis_of(c)];
     }
     return values;
+  }
+
+  /// P2G at the start of a step. What the walls impose reaches the particles in so far as they take the
+  /// grid's velocity: an impulse of the walls.
+  void particles_to_grid(const Part& part, const Drive& drive) {
+    kernel_->map_velocity(part);
+    const Impulse imposed = impose_velocity(part, drive.wall_velocity, nodes_.velocity);
+    for (int c : {0, 1})
+      wall_impulse_[static_cast<std::size_t>(part.share)].of[c] += (1 - flip_fraction_) * imposed.of[c];
+  }
+
+  /// Momentum by component of the kernel.
+  struct alignas(64) Impulse {
+    double of[2] = {0, 0};
+  };
+
+  /// Gives the wall nodes of a part the walls' velocity. Returns the momentum that this adds.
+  Impulse impose_velocity(const Part& part, const WallValues& wall, double* const velocity[2]) const {
+    Impulse imposed;
+    for (const WallNode& node : wall_nodes(part.complete))
+      for (int c : {0, 1}) {
+        double& v = velocity[c][node.index];
+        const double of_wall = wall[node.from[c]][static_cast<std::size_t>(c)], change = of_wall - v;
+        if (const double inverse = nodes_.inverse_mass[node.index]; inverse > 0 && !node.is_image)
+          imposed.of[c] += change / inverse;
+        v = of_wall;
+      }
+    return imposed;
+  }
+
+  /// Gives the wall nodes of a part the walls' acceleration.
+  void impose_acceleration(const Part& part, const Drive& drive) {
+    Impulse& impulse = wall_impulse_[static_cast<std::size_t>(part.share)];
+    for (const WallNode& node : wall_nodes(part.complete))
+      for (int c : {0, 1}) {
+        double& a = nodes_.acceleration[c][node.index];
+        const double of_wall = drive.wall_acceleration[node.from[c]][static_cast<std::size_t>(c)],
+                     change = of_wall - a;
+        a = of_wall;
+        nodes_.velocity[c][node.index] += drive.dt * change;
+        if (const double inverse = nodes_.inverse_mass[node.index]; inverse > 0 && !node.is_image)
+          impulse.of[c] += drive.dt * change / inverse;
+      }
+  }
+
+  /// What is left to do when all particles have moved.
+  void settle(const Drive& drive) {
+    const Motion motion = kernel_->settle();
+    if (!breakdown_) breakdown_ = breakdown_of(motion);
+    for (int c : {0, 1}) {
+      impulse_[axis_of(c)] += drive.dt * total_mass_ * drive.body_acceleration[c];
+      for (Impulse& share : wall_impulse_) impulse_[axis_of(c)] += std::exchange(share.of[c], 0);
+    }
+  }
+
+  /// P2G of everything with the walls' velocity at t.
+  void map_all(double t) const {
+    const Part all = Sweep::whole(lines());
+    kernel_->map_velocity(all);
+    impose_velocity(all, wall_values(t, &Side::velocity), nodes_.velocity);
+  }
+
+  /// A node on a wall, by its number in the kernel, and the sides that give its two components.
+  struct WallNode {
+    int index;
+    bool is_image;  ///< of a periodic node that stands in the list, too
+    std::size_t from[2];
+  };
+  [[nodiscard]] std::span<const WallNode> wall_nodes(Rows rows) const {
+    const auto at = [&](int row) {
+      return wall_nodes_.data() + first_wall_node_[static_cast<std::size_t>(row)];
+    };
+    return {at(rows.begin), at(rows.end)};
   }
 
   /// Lanes lie along the shorter side, so that the rows of nodes that a block touches stay in the cache,
@@ -188,6 +253,10 @@ class LaneSolver final : public Simulation {
   [[nodiscard]] int axis_of(int c) const { return c == 0 ? lane_axis_ : 1 - lane_axis_; }
   [[nodiscard]] const Axis& axis(int c) const { return axis_of(c) == 0 ? grid_.x : grid_.y; }
   [[nodiscard]] bool is_strip() const { return axis(1).periodic && axis(1).cells == 1; }
+  [[nodiscard]] Sweep::Lines lines() const {
+    return {axis(1).cells, axis(0).cells + Basis::degree, is_strip() ? 0 : Basis::degree,
+            axis(1).periodic && !is_strip()};
+  }
 
   /// Seeded, with the walls' share of an impulsive start.
   [[nodiscard]] Particles started_particles() const {
@@ -216,7 +285,7 @@ class LaneSolver final : public Simulation {
                       {scene_.fluid.bulk_modulus, 1 / scene_.fluid.density},
                       points.data(),
                       points.size(),
-                      &team_};
+                      sweep_.shares()};
     for (int c : {0, 1}) {
       const auto a = static_cast<std::size_t>(c);
       constexpr int size = (Basis::degree + 1) * (Basis::degree + 1);
@@ -236,7 +305,8 @@ class LaneSolver final : public Simulation {
     const std::vector<WallNodes::Node>& walls = walls_.nodes();
     std::vector<const WallNodes::Node*> wall_of(grid_.size(), nullptr);
     for (const WallNodes::Node& wall : walls) wall_of[wall.index] = &wall;
-    for (int l = 0; l < nodes_.rows; ++l)
+    for (int l = 0; l < nodes_.rows; ++l) {
+      first_wall_node_.push_back(wall_nodes_.size());
       for (int k = 0; k < axis(0).cells + Basis::degree; ++k) {
         const int ij[2] = {axis(0).function(k), axis(1).function(l)};
         const WallNodes::Node* wall = wall_of[grid_index(ij[0], ij[1])];
@@ -245,6 +315,8 @@ class LaneSolver final : public Simulation {
                                      static_cast<std::size_t>(wall->y_from)};
         wall_nodes_.push_back({node(k, l), k != ij[0] || l != ij[1], {from[axis_of(0)], from[axis_of(1)]}});
       }
+    }
+    first_wall_node_.push_back(wall_nodes_.size());
   }
 
   /// Index in Grid of the node that is the i-th along and the j-th across the lanes.
@@ -255,19 +327,19 @@ class LaneSolver final : public Simulation {
 
   /// The particles' velocity mapped to the grid with the walls' imposed, as Grid numbers nodes.
   [[nodiscard]] VectorField mapped_velocity(double t) const {
-    map_velocity(t, NodalVelocity::Mapped);
+    map_all(t);
     VectorField velocity(grid_.size());
     for (int j = 0; j < axis(1).count(); ++j)
       for (int i = 0; i < axis(0).count(); ++i)
-        for (int c : {0, 1}) velocity[grid_index(i, j)][axis_of(c)] = nodes_.mapped[c][node(i, j)];
+        for (int c : {0, 1}) velocity[grid_index(i, j)][axis_of(c)] = nodes_.velocity[c][node(i, j)];
     return velocity;
   }
 
   /// Update stress first keeps no stress: a reader gets that of the present state.
   void gather_particles() const {
     if (stepping_ == Scheme::Stepping::Usf) {
-      map_velocity(time_, NodalVelocity::Mapped);
-      kernel_->update_stress(NodalVelocity::Mapped, 0);
+      map_all(time_);
+      kernel_->update_stress(Sweep::whole(lines()), NodalVelocity::Current, 0);
     }
     std::vector<PointState> points(particles_.size());
     kernel_->gather(points.data());
@@ -290,11 +362,14 @@ class LaneSolver final : public Simulation {
   Grid grid_;  // geometry alone
   WallNodes walls_;
   ThreadTeam team_;
-  mutable Particles particles_;  // a copy, for readers
+  Sweep sweep_;
+  std::vector<Impulse> wall_impulse_;  // of the step, by share
+  mutable Particles particles_;        // a copy, for readers
   mutable bool is_stale_ = false;
   std::unique_ptr<Kernel> kernel_;
   NodeFields nodes_;
-  std::vector<WallNode> wall_nodes_;
+  std::vector<WallNode> wall_nodes_;  // row by row
+  std::vector<std::size_t> first_wall_node_;
   double total_mass_ = 0, time_ = 0;
   Vec2 impulse_ = Vec2::Zero();
   std::optional<std::string> breakdown_;

@@ -15,6 +15,10 @@ struct LaneBasis {
 
   /// Distance of a cell's i-th node from its first, in the numbering of nodes.
   [[nodiscard]] int offset(int i) const { return i / support[0] * stride + i % support[0]; }
+
+  /// Whether u(x) in a cell is a + b s + c t + d s t with s, t in [0, 1): few operations beside a sum over
+  /// nodes.
+  static constexpr bool is_bilinear = degree == 1 && !is_strip;
 };
 
 /// N and dN/dx of one axis, in the cells of a block: values [-] and slopes [1/m].
@@ -45,44 +49,25 @@ struct LineWeights {
   }
 };
 
-/// N_ip and grad N_ip of the particles of a slot at the nodes i of their cells.
+/// N_ip and grad N_ip of the particles of a slot at the nodes i of their cells: products of one function
+/// along and one across the lanes.
 template <class Basis>
-class CellWeights {
- public:
+struct CellWeights {
+  static constexpr int columns = Basis::support[0], rows = Basis::support[1];
+  LineWeights<Basis::degree, columns> along;
+  LineWeights<Basis::degree, rows> across;
+
   CellWeights(const Basis& basis, const Block& block, const Lanes x[2])
-      : along_(x[0] * basis.inverse_h[0] - block.cell[0], basis.inverse_h[0], block.polynomials[0]),
-        across_(x[1] * basis.inverse_h[1] - block.cell[1], basis.inverse_h[1], block.polynomials[1]) {}
+      : along(x[0] * basis.inverse_h[0] - block.cell[0], basis.inverse_h[0], block.polynomials[0]),
+        across(x[1] * basis.inverse_h[1] - block.cell[1], basis.inverse_h[1], block.polynomials[1]) {}
 
-  /// visit(i, N_i)
+  /// visit(i, q N_i)
   template <class Visit>
-  void values(Visit&& visit) const {
-    unroll<Basis::nodes>([&](int i) { visit(i, along_.value[k(i)] * across_.value[l(i)]); });
-  }
-
-  /// visit(i, dN_i/dx_0, dN_i/dx_1)
-  template <class Visit>
-  void gradients(Visit&& visit) const {
-    unroll<Basis::nodes>([&](int i) {
-      visit(i, along_.slope[k(i)] * across_.value[l(i)], along_.value[k(i)] * across_.slope[l(i)]);
+  void values_times(Lanes q, Visit&& visit) const {
+    unroll<rows>([&](int l) {
+      const Lanes q_l = q * across.value[l];
+      unroll<columns>([&](int k) { visit(l * columns + k, q_l * along.value[k]); });
     });
-  }
-
- private:
-  static constexpr int k(int i) { return i % Basis::support[0]; }
-  static constexpr int l(int i) { return i / Basis::support[0]; }
-
-  LineWeights<Basis::degree, Basis::support[0]> along_;
-  LineWeights<Basis::degree, Basis::support[1]> across_;
-};
-
-/// A nodal vector field around the cells of a block.
-template <class Basis>
-struct NodesOfCells {
-  Lanes at[2][Basis::nodes];
-
-  NodesOfCells(const Basis& basis, const Block& block, double* const field[2]) {
-    for (int c : {0, 1})
-      unroll<Basis::nodes>([&](int i) { at[c][i] = load(field[c] + block.first_node + basis.offset(i)); });
   }
 };
 

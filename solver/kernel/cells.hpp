@@ -89,6 +89,8 @@ class Cells {
 
   [[nodiscard]] int stride() const { return stride_; }
   [[nodiscard]] int count() const { return static_cast<int>(blocks_.size()) * width; }
+  /// The first cell of a row that begins a block.
+  [[nodiscard]] int first_of_row(int row) const { return (row * stride_ + width - 1) / width * width; }
   /// The block that begins with a cell.
   [[nodiscard]] const Block& block(int cell) const { return blocks_[static_cast<std::size_t>(cell / width)]; }
   [[nodiscard]] std::span<Slot> slots(const Block& block) {

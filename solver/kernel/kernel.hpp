@@ -9,8 +9,6 @@
 
 namespace mpm {
 
-class ThreadTeam;
-
 // The interface between a solver and the vector kernels. Plain data only: the kernels are compiled for other
 // instruction sets than the rest, and nothing that both compile may differ between them. Components: 0 along
 // the lanes of a vector, 1 across them; which of them is x is the solver's business.
@@ -35,11 +33,24 @@ struct LineOfCells {
 /// that images of a periodic node have entries of their own, all of the same value.
 struct NodeFields {
   int stride, rows;
-  double* mass;             ///< m_i [kg/m]
+  double* inverse_mass;     ///< 1/m_i [m/kg], 0 where there is no mass
   double* velocity[2];      ///< v_i [m/s]
   double* mapped[2];        ///< velocity of the updated particles mapped back (MUSL) [m/s]
-  double* force[2];         ///< f_i of the stress alone [N/m]
   double* acceleration[2];  ///< a_i [m/s2]
+};
+
+/// Rows [begin, end) of cells or of nodes.
+struct Rows {
+  int begin = 0, end = 0;
+};
+
+/// What a pass does at a time. A row of cells begins with the first cell of a vector, so it may have some
+/// cells of the row before.
+struct Part {
+  Rows fresh;     ///< nodes to which nothing has been added
+  Rows cells;     ///< whose particles are visited
+  Rows complete;  ///< nodes to which nothing more will be added
+  int share = 0;  ///< sums that are kept between parts: one a share, so that threads need not agree
 };
 
 /// What the particles' move found.
@@ -59,21 +70,23 @@ class Kernel {
   virtual NodeFields nodes() = 0;
 
   /// P2G: nodal mass and the velocity that momentum over mass makes; walls are not imposed.
-  virtual void map_velocity(NodalVelocity to) = 0;
+  virtual void map_velocity(const Part&) = 0;
+  /// P2G of updated particles that have not moved yet, to NodalVelocity::Mapped; walls are not imposed.
+  virtual void map_updated_velocity(const Part&) = 0;
   /// Density over dt and stress from a nodal velocity; dt = 0 sets the stress of the present state.
-  virtual void update_stress(NodalVelocity from, double dt) = 0;
-  /// Nodal forces of the stress that the particles have.
-  virtual void forces() = 0;
-  /// update_stress() from the current velocity, and forces(); the stress is not kept.
-  virtual void update_stress_and_forces(double dt) = 0;
-  /// a_i = f_i/m_i + b, v_i += dt a_i; walls are not imposed.
-  virtual void accelerate(const double body_acceleration[2], double dt) = 0;
+  virtual void update_stress(const Part&, NodalVelocity from, double dt) = 0;
+  /// a_i = f_i/m_i + b of the stress that the particles have, v_i += dt a_i; walls are not imposed.
+  virtual void accelerate(const Part&, const double body_acceleration[2], double dt) = 0;
+  /// update_stress() from the current velocity and accelerate() in one; the stress is not kept.
+  virtual void update_stress_and_accelerate(const Part&, const double body_acceleration[2], double dt) = 0;
   /// G2P: FLIP, PIC or a mean of the two: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p).
-  virtual void take(double flip_fraction, double dt) = 0;
+  virtual void take(const Part&, double flip_fraction, double dt) = 0;
   /// Moves the particles with the nodal velocity.
-  virtual Motion move(double dt) = 0;
+  virtual void move(const Part&, double dt) = 0;
   /// take() and move().
-  virtual Motion take_and_move(double flip_fraction, double dt) = 0;
+  virtual void take_and_move(const Part&, double flip_fraction, double dt) = 0;
+  /// When all have moved: gives those that left their cells new places.
+  virtual Motion settle() = 0;
 
   /// Writes all particles in the order in which they came.
   virtual void gather(PointState* points) const = 0;
@@ -88,7 +101,7 @@ struct KernelSetup {
   TaitPressure pressure;
   const PointState* points;
   std::size_t count;
-  ThreadTeam* team;
+  int shares;  ///< Part::share is below it
 };
 
 }  // namespace mpm

@@ -106,6 +106,12 @@ inline void store(double* to, Lanes x) {
   std::memcpy(to, &x.v, sizeof x.v);
 }
 
+/// The first `count` of them.
+template <class Count>
+inline void store_first(Count count, double* to, Lanes x) {
+  std::memcpy(to, &x.v, static_cast<std::size_t>(count) * sizeof(double));
+}
+
 inline double sum(Lanes x) {
   double total = 0;
   for (int lane = 0; lane < width; ++lane) total += x.v[lane];

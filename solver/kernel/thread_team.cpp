@@ -14,7 +14,7 @@ ThreadTeam::~ThreadTeam() {
   begun_.notify_all();
 }
 
-void ThreadTeam::run(int shares, void (*task)(void* context, int share), void* context) {
+void ThreadTeam::run(int shares, void (*task)(const void* context, int share), const void* context) {
   if (helpers_.empty() || shares < 2) {
     for (int share = 0; share < shares; ++share) task(context, share);
     return;

@@ -17,10 +17,15 @@ class ThreadTeam {
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-  /// task(context, k) for every k in [0, shares), on all threads; returns when all are done.
-  void run(int shares, void (*task)(void* context, int share), void* context);
+  /// task(k) for every k in [0, shares), on all threads; returns when all are done.
+  template <class Task>
+  void run(int shares, const Task& task) {
+    run(
+        shares, [](const void* context, int share) { (*static_cast<const Task*>(context))(share); }, &task);
+  }
 
  private:
+  void run(int shares, void (*task)(const void* context, int share), const void* context);
   void serve();
   void work();
 
@@ -31,8 +36,8 @@ class ThreadTeam {
   bool over_ = false;
   int shares_ = 0;
   std::atomic<int> next_ = 0;
-  void (*task_)(void*, int) = nullptr;
-  void* context_ = nullptr;
+  void (*task_)(const void*, int) = nullptr;
+  const void* context_ = nullptr;
   std::vector<std::jthread> helpers_;
 };
 
