@@ -33,7 +33,7 @@ struct Names {
 struct Block {
   int first_node;               ///< of the first cell
   int count[width] = {};        ///< particles a cell
-  Lanes cell[2];                ///< number of the cell along each axis
+  int cell[2][width];           ///< number of the cell along each axis
   const Lanes* polynomials[2];  ///< of the basis in these cells: Axis::polynomials across lanes
   std::size_t first_slot;       ///< in the store of all slots
   int size = 0, capacity = 0;   ///< slots in use, slots reserved
@@ -101,6 +101,11 @@ class Cells {
   }
   [[nodiscard]] std::span<const Slot> slots(const Block& block) const {
     return {slots_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
+  }
+
+  /// Where to find the slots of the block that begins with a cell; nowhere beyond the last.
+  [[nodiscard]] const Slot* address_of(int cell) const {
+    return cell < count() ? slots_.data() + block(cell).first_slot : nullptr;
   }
 
   /// Puts particles that left their cell into the one where they are, around periodic sides. `movers` in the
@@ -252,7 +257,7 @@ class Cells {
   [[nodiscard]] Slot empty_slot(const Block& block) const {
     Slot slot;
     for (int c : {0, 1}) {
-      slot.x[c] = (block.cell[c] + 0.5) / Lanes(axis_[static_cast<std::size_t>(c)].inverse_h);
+      slot.x[c] = (to_lanes(block.cell[c]) + 0.5) / Lanes(axis_[static_cast<std::size_t>(c)].inverse_h);
       slot.v[c] = 0;
     }
     slot.mass = slot.volume = 0;
@@ -266,7 +271,7 @@ class Cells {
     for (int m = 0; m < size; ++m)
       for (int lane = 0; lane < width; ++lane)
         across[static_cast<std::size_t>(m)][lane] =
-            axis_[static_cast<std::size_t>(a)].polynomials[static_cast<int>(block.cell[a][lane]) * size + m];
+            axis_[static_cast<std::size_t>(a)].polynomials[block.cell[a][lane] * size + m];
     for (const auto& known : polynomials_)
       if (std::memcmp(known.data(), across.data(), across.size() * sizeof(Lanes)) == 0) return known.data();
     polynomials_.push_back(std::move(across));
@@ -275,7 +280,7 @@ class Cells {
 
   std::array<LineOfCells, 2> axis_;
   int stride_, degree_;
-  std::vector<Block> blocks_;
+  LargeArray<Block> blocks_;
   LargeArray<Slot> slots_;  // of one block after another
   LargeArray<Stress> stresses_;
   LargeArray<Names> names_;

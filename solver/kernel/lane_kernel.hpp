@@ -67,8 +67,9 @@ class LaneKernel final : public Kernel {
       each_block(part.cells, [&](const Block& block) {
         const CellVelocity<Basis> v(basis_, block, pair(from == NodalVelocity::Current ? velocity : mapped));
         const auto stress = cells_.stresses(block).begin();
-        for (int k = 0; Slot & p : cells_.slots(block))
-          stress[k++] = stress_of(p, CellWeights<Basis>(basis_, block, p.x), v, law, pressure, dt);
+        each_slot(block, part, [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
+          stress[k] = stress_of(p, n_p, v, law, pressure, dt);
+        });
       });
     });
   }
@@ -181,22 +182,22 @@ class LaneKernel final : public Kernel {
       const CellVelocity<Basis> v(basis_, block, pair(velocity));
       const CellVelocity<Basis> a(basis_, block, pair(acceleration));
       Lanes energy = 0, least_volume = 0, lowest = 0, highest = 0;
-      for (Slot& p : cells_.slots(block)) {
-        const CellWeights<Basis> n_p(basis_, block, p.x);
+      const CellFrame<Basis> cells(basis_, block);
+      each_slot(block, part, [&](int, Slot& p, const CellWeights<Basis>& n_p) {
         const Lanes v_x[2] = {v[0].value(n_p), v[1].value(n_p)};
         if constexpr (takes)
           for (int c : {0, 1}) p.v[c] = flip * (p.v[c] + dt * a[c].value(n_p)) + (1 - flip) * v_x[c];
         if constexpr (moves) {
           for (int c : {0, 1}) {
             p.x[c] = select(p.mass > 0, p.x[c] + dt * v_x[c], p.x[c]);
-            const Lanes s = p.x[c] * basis_.inverse_h[c] - block.cell[c];
+            const Lanes s = cells.place(p.x[c], c);
             lowest = least(lowest, s);
             highest = largest(highest, s);
           }
           energy += p.mass * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
           least_volume = least(least_volume, p.volume);
         }
-      }
+      });
       if constexpr (moves) {
         found.energy += energy;
         found.least_volume = least(found.least_volume, least_volume);
@@ -234,9 +235,9 @@ class LaneKernel final : public Kernel {
       for (int cell = 0; cell < cells; cell += width) {
         const Block& block = cells_.block(first + cell);
         Sums sums;
-        const auto add = give(block);
-        for (int k = 0; Slot & p : cells_.slots(block))
-          add(k++, p, CellWeights<Basis>(basis_, block, p.x), sums);
+        each_slot(block, part, [&, add = give(block)](int k, Slot& p, const CellWeights<Basis>& n_p) {
+          add(k, p, n_p, sums);
+        });
         tile_sums.put(basis_, cell, sums);
       }
       tile_sums.add_to(nodes, basis_, first, cells);
@@ -249,6 +250,25 @@ class LaneKernel final : public Kernel {
   [[gnu::flatten]] void each_block(Rows rows, F&& f) {
     const int end = cells_.first_of_row(rows.end);
     for (int cell = cells_.first_of_row(rows.begin); cell < end; cell += width) f(cells_.block(cell));
+  }
+
+  /// f(number, slot, weights) for the slots of a block.
+  template <class F>
+  void each_slot(const Block& block, const Part& part, F&& f) {
+    const CellFrame<Basis> cells(basis_, block);
+    const auto visit = [&](int k, Slot& p) { f(k, p, CellWeights<Basis>(cells, p.x)); };
+    const Slot* ahead = part.ahead > 0 ? cells_.address_of(block.first_node + part.ahead) : nullptr;
+    if (!ahead) {
+      for (int k = 0; Slot & p : cells_.slots(block)) visit(k++, p);
+      return;
+    }
+    constexpr std::size_t third = sizeof(Slot) / 3;
+    const char* fetched = reinterpret_cast<const char*>(ahead) + static_cast<std::size_t>(part.third) * third;
+    for (int k = 0; Slot & p : cells_.slots(block)) {
+      for (std::size_t line = 0; line < third; line += 64) __builtin_prefetch(fetched + line, 0, 2);
+      fetched += sizeof(Slot);
+      visit(k++, p);
+    }
   }
 
   /// f(i, count) for the nodes i to i + count - 1, until those of all the rows are done; count is `width`, a

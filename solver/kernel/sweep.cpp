@@ -8,10 +8,14 @@ namespace {
 /// Cells whose particles and nodes the second cache holds, four particles a cell: smaller grids need no
 /// sweep.
 constexpr int cells_in_cache = 4096;
-/// Cells by which the first pass advances at a time: short beside that cache, long beside the lag of a pass.
-constexpr int cells_at_a_time = 512;
+/// Cells by which the first pass advances at a time: long beside the cost of beginning a pass, short enough
+/// that memory is never idle.
+constexpr int cells_at_a_time = 128;
+/// From the cells that the first pass visits to those that are fetched meanwhile: several hundred memory
+/// accesses.
+constexpr int cells_ahead = 384;
 /// A segment is at least this long, so that the cuts, which are visited twice, do not count.
-constexpr int cells_of_segment = 16384, cuts_of_segment = 16;
+constexpr int cells_of_segment = 8192, cuts_of_segment = 8;
 
 /// Vectors of the widest registers: cells are visited, and nodes added to, in whole vectors.
 constexpr int widest = 8;
@@ -98,8 +102,10 @@ Sweep::Tasks Sweep::segment(const Ends& ends) const {
       const int cells = std::max(now.cells, first - pass * reach_);
       const Front next = is_last ? last[k] : Front{cells, std::min(cells + reach_, last[k].fresh), cells};
       if (next.cells == now.cells && !is_last) continue;
-      tasks.push_back(
-          {pass, {{now.fresh, next.fresh}, {now.cells, next.cells}, {now.complete, next.complete}}});
+      Part part{{now.fresh, next.fresh}, {now.cells, next.cells}, {now.complete, next.complete}};
+      part.ahead = cells_ahead + pass * reach_ * lines_.stride;
+      part.third = pass;
+      tasks.push_back({pass, part});
       now = next;
     }
   }

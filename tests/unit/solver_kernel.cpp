@@ -183,20 +183,53 @@ TEST_CASE("vector kernels: particles displaced, unequal in number, and many cell
   }
 }
 
-TEST_CASE("vector kernels: the number of threads changes no bit") {
-  for (const Scheme::Basis basis : bases) {
-    Scene scene = whirl(60, 70);
-    scene.seeding.displacement = 0.4;
-    scene.side(Edge::Left) = scene.side(Edge::Right) = Side::wall(Vec2::Zero());
-    scene.initial_velocity = [](const Vec2& x) { return Vec2(0, std::sin(1e3 * x.x())); };
-    const auto one = make_simulation(scene, {basis}, 1), three = make_simulation(scene, {basis}, 3);
-    run_steps(*one, 1e-5, 30);
-    run_steps(*three, 1e-5, 30);
-    CHECK(one->particles().position == three->particles().position);
-    CHECK(one->particles().velocity == three->particles().velocity);
-    CHECK(one->particles().density == three->particles().density);
-    CHECK(one->totals().impulse == three->totals().impulse);
+namespace {
+
+/// Large enough to be swept in two segments, 30 cells along the lanes.
+Scene long_whirl(bool walls_along, bool walls_across) {
+  Scene scene = whirl(30, 560);
+  scene.particles_per_cell = {1, 1};
+  scene.seeding.displacement = 0.4;
+  if (walls_along) {
+    scene.side(Edge::Left) = Side::wall(Vec2(0, 0.02));
+    scene.side(Edge::Right) = Side::wall(Vec2(0, -0.03));
   }
+  if (walls_across) {
+    scene.side(Edge::Bottom) = Side::wall(Vec2(0.02, 0));
+    scene.side(Edge::Top) = Side::wall(Vec2(-0.01, 0));
+  }
+  if (walls_along || walls_across)
+    scene.initial_velocity = [=](const Vec2& x) {
+      return walls_along ? Vec2(0, 0.1 * std::sin(1e3 * x.x())) : Vec2(0.1 * std::sin(1e3 * x.y()), 0);
+    };
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("vector kernels: a grid that is swept, cut and closed") {
+  for (const Scheme::Basis basis : bases)
+    for (const Scheme::Stepping stepping :
+         {Scheme::Stepping::Usf, Scheme::Stepping::Usl, Scheme::Stepping::Musl})
+      require_same_as_plain(long_whirl(false, false), {basis, Scheme::Transfer::FlipBlend, stepping}, 1e-5,
+                            8);
+  for (const auto& [along, across] : {std::pair{false, true}, {true, false}, {true, true}})
+    require_same_as_plain(long_whirl(along, across), {Scheme::Basis::Quadratic, Scheme::Transfer::FlipBlend},
+                          1e-6, 8);
+}
+
+TEST_CASE("vector kernels: the number of threads changes no bit") {
+  for (const Scheme::Basis basis : bases)
+    for (const bool walls : {false, true}) {
+      const Scene scene = long_whirl(walls, false);
+      const auto one = make_simulation(scene, {basis}, 1), three = make_simulation(scene, {basis}, 3);
+      run_steps(*one, 1e-5, 10);
+      run_steps(*three, 1e-5, 10);
+      CHECK(one->particles().position == three->particles().position);
+      CHECK(one->particles().velocity == three->particles().velocity);
+      CHECK(one->particles().density == three->particles().density);
+      CHECK(one->totals().impulse == three->totals().impulse);
+    }
 }
 
 TEST_CASE("the benchmark's plain loop gives the solver's answer") {
