@@ -45,6 +45,10 @@ class ShearDiffusion {
 
  private:
   class Newton;
+  enum class Factorisations { kShared, kFresh };
+
+  /// Newton's iteration from the guess in `stages`; false if it does not converge.
+  bool iterate(double h, const std::vector<double>& w, Stages& stages, Factorisations factorisations) const;
 
   const FlowCurve& curve_;
   const SpectralLine& line_;
