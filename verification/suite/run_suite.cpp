@@ -99,12 +99,11 @@ class SuiteRunner {
     if (!data.shear.empty()) reports::write_shear(out_, plan.run, data.shear);
     if (!data.state.empty()) reports::write_state(out_, plan.run, data.state);
 
-    const std::scoped_lock lock(mutex_);
+    std::unique_lock lock(mutex_);
     data_[job.study].runs[job.run] = std::move(data);
-    outcome_.from_cache += from_cache;
-    ++done_;
-    if (listener_.run_ended) listener_.run_ended(done_, outcome_.runs, plan.run);
-    if (--remaining_[job.study] == 0) conclude(data_[job.study]);
+    if (!count(job, plan.run, from_cache)) return;
+    lock.unlock();
+    conclude(data_[job.study]);
   }
 
   /// A case of a [stability].
@@ -124,18 +123,24 @@ class SuiteRunner {
       limits = limits_of(study, one, timing.run);
     timing.wall_s = limits->wall_s;
 
-    const std::scoped_lock lock(mutex_);
+    std::unique_lock lock(mutex_);
     StudyData& data = data_[job.study];
     limits_[job.study][job.run] = std::move(limits->records);
     data.stability_timings.push_back(timing);
-    outcome_.from_cache += from_cache;
-    ++done_;
-    if (listener_.run_ended) listener_.run_ended(done_, outcome_.runs, timing.run);
-    if (--remaining_[job.study] > 0) return;
+    if (!count(job, timing.run, from_cache)) return;
+    lock.unlock();
     for (const auto& of_case : limits_[job.study])
       data.stability.insert(data.stability.end(), of_case.begin(), of_case.end());
     std::ranges::sort(data.stability_timings, {}, &reports::TimingRecord::run);
     conclude(data);
+  }
+
+  /// Notes, under the lock, that a job has ended. True when it was the last of its study.
+  bool count(const Job& job, const std::string& name, bool from_cache) {
+    outcome_.from_cache += from_cache;
+    ++done_;
+    if (listener_.run_ended) listener_.run_ended(done_, outcome_.runs, name);
+    return --remaining_[job.study] == 0;
   }
 
   MeasuredLimits limits_of(const Study& study, const StabilityCase& one, const std::string& run) {
@@ -169,6 +174,7 @@ class SuiteRunner {
     }
   }
 
+  /// Without the lock: nobody else works on a study whose jobs have all ended.
   void conclude(StudyData& data) {
     measure_orders(data);
     evaluate_checks(data);
@@ -181,6 +187,7 @@ class SuiteRunner {
       run.state = {};
       run.start = {};
     }
+    const std::scoped_lock lock(mutex_);
     if (listener_.study_ended) listener_.study_ended(data);
   }
 
