@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "solver/grid.hpp"
 #include "solver/kernel/sweep.hpp"
 #include "solver/scene.hpp"
@@ -40,10 +42,12 @@ class LaneLayout {
 
  private:
   /// Lanes lie along the shorter side, so that the rows between two passes of a sweep stay in the cache,
-  /// unless it is so short that the gaps between its rows would waste lanes.
+  /// unless it is so short that the gaps between its rows waste more than a sweep gains.
   static int lane_axis(const Scene& scene) {
-    const int longer = scene.cells[1] >= scene.cells[0] ? 1 : 0;
-    return scene.cells[static_cast<std::size_t>(1 - longer)] >= 16 ? 1 - longer : longer;
+    const auto [x, y] = scene.cells;
+    const int shorter = y >= x ? 0 : 1, short_side = std::min(x, y);
+    const bool is_swept = static_cast<long>(x) * y > Sweep::cells_in_cache;
+    return short_side >= (is_swept ? 4 : 16) ? shorter : 1 - shorter;
   }
 
   const Grid* grid_;

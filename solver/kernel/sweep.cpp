@@ -5,17 +5,15 @@
 namespace mpm {
 namespace {
 
-/// Cells whose particles and nodes the second cache holds, four particles a cell: smaller grids need no
-/// sweep.
-constexpr int cells_in_cache = 4096;
 /// Cells by which the first pass advances at a time: long beside the cost of beginning a pass, short enough
 /// that memory is never idle.
 constexpr int cells_at_a_time = 128;
 /// From the cells that the first pass visits to those that are fetched meanwhile: several hundred memory
 /// accesses.
 constexpr int cells_ahead = 384;
-/// A segment is at least this long, so that the cuts, which are visited twice, do not count.
-constexpr int cells_of_segment = 8192, cuts_of_segment = 8;
+/// A segment is at least this long, in cells and in rows beside what a cut on one side of it takes: enough
+/// that the cuts, which are fetched twice, do not count.
+constexpr int cells_of_segment = 8192, cuts_of_segment = 4;
 
 /// Vectors of the widest registers: cells are visited, and nodes added to, in whole vectors.
 constexpr int widest = 8;
@@ -27,7 +25,7 @@ Sweep::Sweep(const Lines& lines, int passes)
       passes_(passes),
       reach_(lines.degree + 1 + (lines.degree + 2 * widest - 1) / lines.stride) {
   const int rows = lines.rows, cells = lines.stride * rows;
-  const int shortest = cuts_of_segment * 2 * lead(0);
+  const int shortest = cuts_of_segment * lead(0);
   if (cells <= cells_in_cache || rows < shortest) {
     segments_.emplace_back();
     for (int pass = 0; pass < passes; ++pass) segments_.back().push_back({pass, whole(lines)});

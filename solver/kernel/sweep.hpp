@@ -31,6 +31,10 @@ class Sweep {
   };
   Sweep(const Lines& lines, int passes);
 
+  /// Cells whose particles and nodes the second cache holds, four particles a cell: smaller grids are visited
+  /// by one pass after the other.
+  static constexpr int cells_in_cache = 4096;
+
   /// Visits everything with all passes, on all threads; pass[k] may use what pass[k - 1] completed.
   template <class... Pass>
   void run(ThreadTeam& team, const Pass&... pass) const {

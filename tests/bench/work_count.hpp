@@ -16,12 +16,10 @@ inline double operations_per_particle_step() {
   return static_cast<double>(plain::Counted::operations) / static_cast<double>(loop.particles().size());
 }
 
-/// Bytes a particle and step that the kernel's three passes must move when no cache holds the particles:
-/// nine numbers (x, v, m, V, sigma), of which
-///   P2G reads x, v, m                                            5
-///   stress and forces read x, m, V and write V, sigma            4 + 4
-///   G2P and move read x, v, m, V and write x, v                  6 + 4
-/// Nodes are few beside them and stay in the cache.
-constexpr double bytes_per_particle_step = 8 * (5 + 4 + 4 + 6 + 4);
+/// Bytes a particle and step that a sweep of the kernel must move when no cache holds particles and nodes
+/// from one step to the next, four particles a node:
+///   a particle's x, v, m, V are read, x, v, V written            6 + 5
+///   a node's 1/m, v, a are fetched and written, a quarter of     5 + 5
+constexpr double bytes_per_particle_step = 8 * (6 + 5 + (5 + 5) / 4.0);
 
 }  // namespace bench
