@@ -36,7 +36,7 @@ class LaneKernel final : public Kernel {
             {at(acceleration), at(acceleration + 1)}};
   }
 
-  /// m_i = sum_p N_ip m_p, v_i = sum_p N_ip m_p v_p / m_i (paper Eqs. 14-15).
+  /// P2G: m_i = sum_p N_ip m_p, v_i = sum_p N_ip m_p v_p / m_i (paper Eqs. 14-15).
   void map_velocity(const Part& part) override {
     double* const m_i = field(inverse_mass);
     const auto v_i = pair(velocity);
