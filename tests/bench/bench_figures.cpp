@@ -52,8 +52,7 @@ std::string size_figure(const Collector& rates) {
     script.line({{800, height}, {1e6, height}}, "#555555", text, 1.5, dash);
   };
   roof("peak/arithmetic", "operations", operations_per_particle_step(), "peak arithmetic of one core", "2");
-  roof("peak/bandwidth/768", "bytes", bytes_per_particle_step, "memory bandwidth of one core, nothing cached",
-       "3");
+  roof("peak/bandwidth/72", "bytes", bytes_per_particle_step, "memory bandwidth of one core, of 72 MiB", "3");
   return script.empty() ? "" : script.text("bench-size");
 }
 
