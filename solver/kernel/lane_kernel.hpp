@@ -178,7 +178,7 @@ class LaneKernel final : public Kernel {
   template <bool takes, bool moves>
   void gather_from_nodes(const Part& part, double flip, double dt) {
     Found& found = found_[static_cast<std::size_t>(part.share)];
-    each_block(part.cells, [&, flip, dt](const Block& block) {
+    each_block(part.cells, [&](const Block& block) {
       const CellVelocity<Basis> v(basis_, block, pair(velocity));
       const CellVelocity<Basis> a(basis_, block, pair(acceleration));
       Lanes energy = 0, least_volume = 0, lowest = 0, highest = 0;
