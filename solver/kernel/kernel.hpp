@@ -51,8 +51,7 @@ struct Part {
   Rows cells;     ///< whose particles are visited
   Rows complete;  ///< nodes to which nothing more will be added
   int share = 0;  ///< sums that are kept between parts: one a share, so that threads need not agree
-  /// Meanwhile the n-th third of the particles that lie `ahead` cells on is fetched from memory.
-  int ahead = 0, third = 0;
+  int ahead = 0;  ///< particles that lie so many cells on are fetched from memory meanwhile
 };
 
 /// What the particles' move found.

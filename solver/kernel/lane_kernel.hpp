@@ -20,10 +20,14 @@ class LaneKernel final : public Kernel {
         pressure_(setup.pressure),
         has_pressure_(setup.has_pressure),
         found_(static_cast<std::size_t>(setup.shares)) {
-    // Blocks at the end read and write beyond the last node, within a margin.
-    const int size =
-        std::max(rows_ * cells_.stride(), cells_.count()) + basis_.offset(Basis::nodes - 1) + 2 * margin;
-    for (auto& field : fields_) field.assign(static_cast<std::size_t>(size / width + 1), Lanes(0));
+    // Blocks at the end read and write beyond the last node, within a margin. Fields begin some cache lines
+    // apart modulo a page: at the same place in their pages they would compete for the same lines of the
+    // cache.
+    constexpr std::size_t page = 4096 / sizeof(double), apart = 9 * 64 / sizeof(double);
+    const auto size = static_cast<std::size_t>(std::max(rows_ * cells_.stride(), cells_.count()) +
+                                               basis_.offset(Basis::nodes - 1) + 2 * margin);
+    field_size_ = (size + page - 1) / page * page + apart;
+    fields_.assign(field_count * field_size_ / static_cast<std::size_t>(width), Lanes(0));
   }
 
   NodeFields nodes() override {
@@ -40,7 +44,7 @@ class LaneKernel final : public Kernel {
   void map_velocity(const Part& part) override {
     double* const m_i = field(inverse_mass);
     const auto v_i = pair(velocity);
-    scatter<MassSums<Basis>>(part, {m_i, v_i[0], v_i[1]}, [](const Block&) {
+    scatter<MassSums<Basis>, fetch_by_p2g>(part, {m_i, v_i[0], v_i[1]}, [](const Block&) {
       return
           [](int, const Slot& p, const CellWeights<Basis>& n_p, auto& sums) { sums.add(n_p, p.mass, p.v); };
     });
@@ -53,7 +57,7 @@ class LaneKernel final : public Kernel {
 
   void map_updated_velocity(const Part& part) override {
     const auto v_i = pair(mapped);
-    scatter<MomentumSums<Basis>>(part, v_i, [](const Block&) {
+    scatter<MomentumSums<Basis>, no_fetch>(part, v_i, [](const Block&) {
       return
           [](int, const Slot& p, const CellWeights<Basis>& n_p, auto& sums) { sums.add(n_p, p.mass, p.v); };
     });
@@ -67,7 +71,7 @@ class LaneKernel final : public Kernel {
       each_block(part.cells, [&](const Block& block) {
         const CellVelocity<Basis> v(basis_, block, pair(from == NodalVelocity::Current ? velocity : mapped));
         const auto stress = cells_.stresses(block).begin();
-        each_slot(block, part, [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
+        each_slot<no_fetch>(block, part, [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
           stress[k] = stress_of(p, n_p, v, law, pressure, dt);
         });
       });
@@ -75,7 +79,7 @@ class LaneKernel final : public Kernel {
   }
 
   void accelerate(const Part& part, const double b[2], double dt) override {
-    scatter<DivergenceSums<Basis>>(part, pair(acceleration), [&](const Block& block) {
+    scatter<DivergenceSums<Basis>, fetch_by_forces>(part, pair(acceleration), [&](const Block& block) {
       return [stress = cells_.stresses(block).begin()](int k, const Slot& p, const CellWeights<Basis>& n_p,
                                                        auto& sums) { sums.add(n_p, force_of(p, stress[k])); };
     });
@@ -84,7 +88,7 @@ class LaneKernel final : public Kernel {
 
   void update_stress_and_accelerate(const Part& part, const double b[2], double dt) override {
     with_fluid([&](const auto& law, const auto& pressure) {
-      scatter<DivergenceSums<Basis>>(part, pair(acceleration), [&](const Block& block) {
+      scatter<DivergenceSums<Basis>, fetch_by_forces>(part, pair(acceleration), [&](const Block& block) {
         const CellVelocity<Basis> v(basis_, block, pair(velocity));
         return [=, &law, &pressure](int, Slot& p, const CellWeights<Basis>& n_p, auto& sums) {
           sums.add(n_p, force_of(p, stress_of(p, n_p, v, law, pressure, dt)));
@@ -125,13 +129,22 @@ class LaneKernel final : public Kernel {
     field_count = acceleration + 2
   };
 
+  /// Part of a slot, in sixths of its size. The passes of a step share a slot out as they share out its time,
+  /// so that memory is busy all along.
+  struct Fetch {
+    std::size_t first, sixths;
+  };
+  static constexpr Fetch no_fetch{0, 0}, fetch_by_p2g{0, 1}, fetch_by_forces{1, 3}, fetch_by_g2p{4, 2};
+
   /// What a share of the cells reports when its particles have moved.
   struct alignas(64) Found {
     Lanes energy = 0, least_volume = 0;
     std::vector<Address> left;
   };
 
-  [[nodiscard]] double* field(int f) { return reinterpret_cast<double*>(fields_[f].data()); }
+  [[nodiscard]] double* field(int f) {
+    return reinterpret_cast<double*>(fields_.data()) + static_cast<std::size_t>(f) * field_size_;
+  }
   [[nodiscard]] std::array<double*, 2> pair(int f) { return {field(f), field(f + 1)}; }
 
   /// D from the nodal velocity; volume V (1 + dt tr D), density m/V; sigma = 2 mu D - (2/3 mu tr D + P) I
@@ -183,21 +196,22 @@ class LaneKernel final : public Kernel {
       const CellVelocity<Basis> a(basis_, block, pair(acceleration));
       Lanes energy = 0, least_volume = 0, lowest = 0, highest = 0;
       const CellFrame<Basis> cells(basis_, block);
-      each_slot(block, part, [&](int, Slot& p, const CellWeights<Basis>& n_p) {
-        const Lanes v_x[2] = {v[0].value(n_p), v[1].value(n_p)};
-        if constexpr (takes)
-          for (int c : {0, 1}) p.v[c] = flip * (p.v[c] + dt * a[c].value(n_p)) + (1 - flip) * v_x[c];
-        if constexpr (moves) {
-          for (int c : {0, 1}) {
-            p.x[c] = select(p.mass > 0, p.x[c] + dt * v_x[c], p.x[c]);
-            const Lanes s = cells.place(p.x[c], c);
-            lowest = least(lowest, s);
-            highest = largest(highest, s);
-          }
-          energy += p.mass * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
-          least_volume = least(least_volume, p.volume);
-        }
-      });
+      each_slot<takes ? fetch_by_g2p : no_fetch>(
+          block, part, [&](int, Slot& p, const CellWeights<Basis>& n_p) {
+            const Lanes v_x[2] = {v[0].value(n_p), v[1].value(n_p)};
+            if constexpr (takes)
+              for (int c : {0, 1}) p.v[c] = flip * (p.v[c] + dt * a[c].value(n_p)) + (1 - flip) * v_x[c];
+            if constexpr (moves) {
+              for (int c : {0, 1}) {
+                p.x[c] = select(p.mass > 0, p.x[c] + dt * v_x[c], p.x[c]);
+                const Lanes s = cells.place(p.x[c], c);
+                lowest = least(lowest, s);
+                highest = largest(highest, s);
+              }
+              energy += p.mass * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
+              least_volume = least(least_volume, p.volume);
+            }
+          });
       if constexpr (moves) {
         found.energy += energy;
         found.least_volume = least(found.least_volume, least_volume);
@@ -222,12 +236,11 @@ class LaneKernel final : public Kernel {
 
   /// Sums what the particles of a part give to nodes, those of their cells: give(block) returns what adds a
   /// slot's share to its cells' sums, (number of the slot, slot, weights, sums).
-  template <class Sums, class Give>
+  template <class Sums, Fetch fetch, class Give>
   [[gnu::flatten]] void scatter(const Part& part, const std::array<double*, Sums::fields>& nodes,
                                 Give&& give) {
-    const int stride = cells_.stride();
     for (double* node : nodes)
-      std::fill(node + part.fresh.begin * stride, node + part.fresh.end * stride, 0.0);
+      std::fill(node + part.fresh.begin * cells_.stride(), node + part.fresh.end * cells_.stride(), 0.0);
     TileSums<Basis, Sums> tile_sums;
     const int end = cells_.first_of_row(part.cells.end);
     for (int first = cells_.first_of_row(part.cells.begin); first < end; first += tile) {
@@ -235,7 +248,7 @@ class LaneKernel final : public Kernel {
       for (int cell = 0; cell < cells; cell += width) {
         const Block& block = cells_.block(first + cell);
         Sums sums;
-        each_slot(block, part, [&, add = give(block)](int k, Slot& p, const CellWeights<Basis>& n_p) {
+        each_slot<fetch>(block, part, [&, add = give(block)](int k, Slot& p, const CellWeights<Basis>& n_p) {
           add(k, p, n_p, sums);
         });
         tile_sums.put(basis_, cell, sums);
@@ -252,8 +265,9 @@ class LaneKernel final : public Kernel {
     for (int cell = cells_.first_of_row(rows.begin); cell < end; cell += width) f(cells_.block(cell));
   }
 
-  /// f(number, slot, weights) for the slots of a block.
-  template <class F>
+  /// f(number, slot, weights) for the slots of a block. Meanwhile `fetch` of each slot of the block that lies
+  /// part.ahead cells on is brought into the cache.
+  template <Fetch fetch, class F>
   void each_slot(const Block& block, const Part& part, F&& f) {
     const CellFrame<Basis> cells(basis_, block);
     const auto visit = [&](int k, Slot& p) { f(k, p, CellWeights<Basis>(cells, p.x)); };
@@ -262,10 +276,11 @@ class LaneKernel final : public Kernel {
       for (int k = 0; Slot & p : cells_.slots(block)) visit(k++, p);
       return;
     }
-    constexpr std::size_t third = sizeof(Slot) / 3;
-    const char* fetched = reinterpret_cast<const char*>(ahead) + static_cast<std::size_t>(part.third) * third;
+    constexpr std::size_t sixth = sizeof(Slot) / 6;
+    const char* fetched = reinterpret_cast<const char*>(ahead);
     for (int k = 0; Slot & p : cells_.slots(block)) {
-      for (std::size_t line = 0; line < third; line += 64) __builtin_prefetch(fetched + line, 0, 2);
+      for (std::size_t byte = fetch.first * sixth; byte < (fetch.first + fetch.sixths) * sixth; byte += 64)
+        __builtin_prefetch(fetched + byte, 0, 2);
       fetched += sizeof(Slot);
       visit(k++, p);
     }
@@ -319,7 +334,8 @@ class LaneKernel final : public Kernel {
   TaitPressure pressure_;
   bool has_pressure_;
   std::vector<Found> found_;
-  LargeArray<Lanes> fields_[field_count];
+  std::size_t field_size_;    // from one field to the next
+  LargeArray<Lanes> fields_;  // one after another
 };
 
 }  // namespace mpm::MPM_ISA

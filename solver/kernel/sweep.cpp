@@ -102,7 +102,6 @@ Sweep::Tasks Sweep::segment(const Ends& ends) const {
       if (next.cells == now.cells && !is_last) continue;
       Part part{{now.fresh, next.fresh}, {now.cells, next.cells}, {now.complete, next.complete}};
       part.ahead = cells_ahead + pass * reach_ * lines_.stride;
-      part.third = pass;
       tasks.push_back({pass, part});
       now = next;
     }
