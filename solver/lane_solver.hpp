@@ -127,7 +127,7 @@ class LaneSolver final : public Simulation {
         [&](const Part& part) {
           kernel_->take(part, flip_fraction_, dt);
           kernel_->map_updated_velocity(part);
-          walls_.impose_velocity(part, wall_at_end, nodes_, nodes_.mapped, 0);
+          walls_.impose_velocity(part, wall_at_end, nodes_.mapped);
         },
         [&](const Part& part) {
           kernel_->update_stress(part, NodalVelocity::Mapped, dt);
@@ -151,7 +151,7 @@ class LaneSolver final : public Simulation {
   /// grid's velocity.
   void particles_to_grid(const Part& part, const Drive& drive) {
     kernel_->map_velocity(part);
-    walls_.impose_velocity(part, drive.wall_velocity, nodes_, nodes_.velocity, 1 - flip_fraction_);
+    walls_.impose_velocity(part, drive.wall_velocity, nodes_, 1 - flip_fraction_);
   }
 
   void impose_acceleration(const Part& part, const Drive& drive) {
@@ -170,7 +170,7 @@ class LaneSolver final : public Simulation {
   void map_all(double t) const {
     const Part all = Sweep::whole(layout_.lines());
     kernel_->map_velocity(all);
-    walls_.impose_velocity(all, walls_.velocity(t), nodes_, nodes_.velocity, 0);
+    walls_.impose_velocity(all, walls_.velocity(t), nodes_.velocity);
   }
 
   /// The stress of the present state everywhere.
@@ -250,7 +250,7 @@ class LaneSolver final : public Simulation {
   ThreadTeam team_;
   Sweep sweep_;
   WallNodes wall_nodes_;
-  mutable LaneWalls walls_;
+  LaneWalls walls_;
   mutable Particles particles_;  // a copy, for readers
   mutable bool is_stale_ = false;
   std::unique_ptr<Kernel> kernel_;

@@ -40,19 +40,21 @@ class LaneWalls {
   [[nodiscard]] Values velocity(double t) const { return values(t, &Side::velocity); }
   [[nodiscard]] Values acceleration(double t) const { return values(t, &Side::acceleration); }
 
-  /// Gives wall nodes the walls' velocity. Of the momentum that this adds, particles take a part: an impulse.
-  void impose_velocity(const Part& part, const Values& wall, const NodeFields& fields,
-                       double* const velocity[2], double part_taken) {
+  /// Gives wall nodes the walls' velocity.
+  void impose_velocity(const Part& part, const Values& wall, double* const velocity[2]) const {
+    for (const Node& node : rows(part.complete))
+      for (int c : {0, 1}) velocity[c][node.index] = wall[node.from[c]][static_cast<std::size_t>(c)];
+  }
+
+  /// The same; of the momentum that this adds, particles take a part: an impulse.
+  void impose_velocity(const Part& part, const Values& wall, const NodeFields& fields, double part_taken) {
     Impulse& impulse = impulse_[static_cast<std::size_t>(part.share)];
-    for (const Node& node : rows(part.complete)) {
-      const double mass = part_taken * counted_mass(node, fields);
-      for (int c : {0, 1}) {
-        double& v = velocity[c][node.index];
-        const double of_wall = wall[node.from[c]][static_cast<std::size_t>(c)];
-        impulse.of[c] += mass * (of_wall - v);
-        v = of_wall;
-      }
-    }
+    if (part_taken > 0)
+      for (const Node& node : rows(part.complete))
+        for (int c : {0, 1})
+          impulse.of[c] += part_taken * counted_mass(node, fields) *
+                           (wall[node.from[c]][static_cast<std::size_t>(c)] - fields.velocity[c][node.index]);
+    impose_velocity(part, wall, fields.velocity);
   }
 
   /// Gives wall nodes the walls' acceleration over dt in place of the one that they had.

@@ -99,11 +99,17 @@ class LaneKernel final : public Kernel {
   }
 
   void take(const Part& part, double flip_fraction, double dt) override {
-    gather_from_nodes<true, false>(part, flip_fraction, dt);
+    if (flip_fraction == 1)
+      gather_from_nodes<Take::Flip, false>(part, 1, dt);
+    else
+      gather_from_nodes<Take::Blend, false>(part, flip_fraction, dt);
   }
-  void move(const Part& part, double dt) override { gather_from_nodes<false, true>(part, 0, dt); }
+  void move(const Part& part, double dt) override { gather_from_nodes<Take::Nothing, true>(part, 0, dt); }
   void take_and_move(const Part& part, double flip_fraction, double dt) override {
-    gather_from_nodes<true, true>(part, flip_fraction, dt);
+    if (flip_fraction == 1)
+      gather_from_nodes<Take::Flip, true>(part, 1, dt);
+    else
+      gather_from_nodes<Take::Blend, true>(part, flip_fraction, dt);
   }
 
   Motion settle() override {
@@ -188,19 +194,23 @@ class LaneKernel final : public Kernel {
   }
 
   /// G2P: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p); x_p += dt v(x_p) (paper Eqs. 18-20).
-  template <bool takes, bool moves>
-  void gather_from_nodes(const Part& part, double flip, double dt) {
+  enum class Take { Nothing, Flip, Blend };
+  template <Take taken, bool moves>
+  void gather_from_nodes(const Part& part, [[maybe_unused]] double flip, double dt) {
     Found& found = found_[static_cast<std::size_t>(part.share)];
     each_block(part.cells, [&](const Block& block) {
       const CellVelocity<Basis> v(basis_, block, pair(velocity));
       const CellVelocity<Basis> a(basis_, block, pair(acceleration));
       Lanes energy = 0, least_volume = 0, lowest = 0, highest = 0;
       const CellFrame<Basis> cells(basis_, block);
-      each_slot<takes ? fetch_by_g2p : no_fetch>(
+      each_slot<taken == Take::Nothing ? no_fetch : fetch_by_g2p>(
           block, part, [&](int, Slot& p, const CellWeights<Basis>& n_p) {
             const Lanes v_x[2] = {v[0].value(n_p), v[1].value(n_p)};
-            if constexpr (takes)
-              for (int c : {0, 1}) p.v[c] = flip * (p.v[c] + dt * a[c].value(n_p)) + (1 - flip) * v_x[c];
+            for (int c : {0, 1}) {
+              if constexpr (taken == Take::Flip) p.v[c] += dt * a[c].value(n_p);
+              if constexpr (taken == Take::Blend)
+                p.v[c] = flip * (p.v[c] + dt * a[c].value(n_p)) + (1 - flip) * v_x[c];
+            }
             if constexpr (moves) {
               for (int c : {0, 1}) {
                 p.x[c] = select(p.mass > 0, p.x[c] + dt * v_x[c], p.x[c]);
