@@ -279,20 +279,18 @@ class LaneKernel final : public Kernel {
   /// part.ahead cells on is brought into the cache.
   template <Fetch fetch, class F>
   void each_slot(const Block& block, const Part& part, F&& f) {
+    constexpr std::size_t sixth = sizeof(Slot) / 6, end = (fetch.first + fetch.sixths) * sixth;
     const CellFrame<Basis> cells(basis_, block);
-    const auto visit = [&](int k, Slot& p) { f(k, p, CellWeights<Basis>(cells, p.x)); };
-    const Slot* ahead = part.ahead > 0 ? cells_.address_of(block.first_node + part.ahead) : nullptr;
-    if (!ahead) {
-      for (int k = 0; Slot & p : cells_.slots(block)) visit(k++, p);
-      return;
-    }
-    constexpr std::size_t sixth = sizeof(Slot) / 6;
-    const char* fetched = reinterpret_cast<const char*>(ahead);
+    const bool fetches = fetch.sixths > 0 && part.ahead > 0;
+    const char* ahead =
+        reinterpret_cast<const char*>(fetches ? cells_.address_of(block.first_node + part.ahead) : nullptr);
     for (int k = 0; Slot & p : cells_.slots(block)) {
-      for (std::size_t byte = fetch.first * sixth; byte < (fetch.first + fetch.sixths) * sixth; byte += 64)
-        __builtin_prefetch(fetched + byte, 0, 2);
-      fetched += sizeof(Slot);
-      visit(k++, p);
+      if (ahead) {
+        for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
+          __builtin_prefetch(ahead + byte, 0, 2);
+        ahead += sizeof(Slot);
+      }
+      f(k++, p, CellWeights<Basis>(cells, p.x));
     }
   }
 
