@@ -102,10 +102,7 @@ class LaneSolver final : public Simulation {
     const Drive drive = drive_of(t, dt);
     sweep_.run(
         team_, [&](const Part& part) { particles_to_grid(part, drive); },
-        [&](const Part& part) {
-          kernel_->accelerate(part, drive.body_acceleration, dt);
-          impose_acceleration(part, drive);
-        },
+        [&](const Part& part) { accelerate(part, drive); },
         [&](const Part& part) {
           kernel_->update_stress(part, NodalVelocity::Current, dt);
           kernel_->take_and_move(part, flip_fraction_, dt);
@@ -120,10 +117,7 @@ class LaneSolver final : public Simulation {
     const LaneWalls::Values wall_at_end = walls_.velocity(t + dt);
     sweep_.run(
         team_, [&](const Part& part) { particles_to_grid(part, drive); },
-        [&](const Part& part) {
-          kernel_->accelerate(part, drive.body_acceleration, dt);
-          impose_acceleration(part, drive);
-        },
+        [&](const Part& part) { accelerate(part, drive); },
         [&](const Part& part) {
           kernel_->take(part, flip_fraction_, dt);
           kernel_->map_updated_velocity(part);
@@ -152,6 +146,12 @@ class LaneSolver final : public Simulation {
   void particles_to_grid(const Part& part, const Drive& drive) {
     kernel_->map_velocity(part);
     walls_.impose_velocity(part, drive.wall_velocity, nodes_, 1 - flip_fraction_);
+  }
+
+  /// With the stress that the particles have.
+  void accelerate(const Part& part, const Drive& drive) {
+    kernel_->accelerate(part, drive.body_acceleration, drive.dt);
+    impose_acceleration(part, drive);
   }
 
   void impose_acceleration(const Part& part, const Drive& drive) {

@@ -72,37 +72,18 @@ struct CellVelocity {
   const CellField<Basis>& operator[](int c) const { return component[c]; }
 };
 
-/// Transpose of CellField::value: what the particles of a block bring to the nodes i of their cells of mass
-/// and of two quantities that it carries, sum_p N_ip m_p and sum_p N_ip m_p q_p.
-template <class Basis>
-class MassSums {
- public:
-  static constexpr int fields = 3;
-
-  void add(const CellWeights<Basis>& n_p, Lanes m, const Lanes (&v)[2]) {
-    n_p.values_times(m, [&](int i, Lanes n_m) {
-      sum_[0][i] += n_m;
-      sum_[1][i] += n_m * v[0];
-      sum_[2][i] += n_m * v[1];
-    });
-  }
-
-  [[nodiscard]] Lanes at(const Basis&, int field, int i) const { return sum_[field][i]; }
-
- private:
-  Lanes sum_[fields][Basis::nodes] = {};
-};
-
-/// The same without the mass itself.
-template <class Basis>
+/// Transpose of CellField::value: what the particles of a block bring to the nodes of their cells of
+/// momentum, sum_p N_ip m_p v_p, and before it, if asked for, of mass, sum_p N_ip m_p.
+template <class Basis, bool with_mass>
 class MomentumSums {
  public:
-  static constexpr int fields = 2;
+  static constexpr int fields = with_mass ? 3 : 2;
 
   void add(const CellWeights<Basis>& n_p, Lanes m, const Lanes (&v)[2]) {
     n_p.values_times(m, [&](int i, Lanes n_m) {
-      sum_[0][i] += n_m * v[0];
-      sum_[1][i] += n_m * v[1];
+      if constexpr (with_mass) sum_[0][i] += n_m;
+      sum_[fields - 2][i] += n_m * v[0];
+      sum_[fields - 1][i] += n_m * v[1];
     });
   }
 

@@ -32,7 +32,6 @@ struct LineOfCells {
 /// Nodal fields. Nodes are numbered n = row * stride + i with i counted along the axis (Axis::function), so
 /// that images of a periodic node have entries of their own, all of the same value.
 struct NodeFields {
-  int stride, rows;
   double* inverse_mass;     ///< 1/m_i [m/kg], 0 where there is no mass
   double* velocity[2];      ///< v_i [m/s]
   double* mapped[2];        ///< velocity of the updated particles mapped back (MUSL) [m/s]
@@ -44,8 +43,8 @@ struct Rows {
   int begin = 0, end = 0;
 };
 
-/// What a pass does at a time. A row of cells begins with the first cell of a vector, so it may have some
-/// cells of the row before.
+/// What a pass does at a time. Cells are visited in whole vectors, each with the row in which it begins: its
+/// last cells may lie in the next one.
 struct Part {
   Rows fresh;     ///< nodes to which nothing has been added
   Rows cells;     ///< whose particles are visited

@@ -32,9 +32,7 @@ class LaneKernel final : public Kernel {
 
   NodeFields nodes() override {
     const auto at = [&](int f) { return field(f); };
-    return {cells_.stride(),
-            rows_,
-            at(inverse_mass),
+    return {at(inverse_mass),
             {at(velocity), at(velocity + 1)},
             {at(mapped), at(mapped + 1)},
             {at(acceleration), at(acceleration + 1)}};
@@ -44,10 +42,7 @@ class LaneKernel final : public Kernel {
   void map_velocity(const Part& part) override {
     double* const m_i = field(inverse_mass);
     const auto v_i = pair(velocity);
-    scatter<MassSums<Basis>, fetch_by_p2g>(part, {m_i, v_i[0], v_i[1]}, [](const Block&) {
-      return
-          [](int, const Slot& p, const CellWeights<Basis>& n_p, auto& sums) { sums.add(n_p, p.mass, p.v); };
-    });
+    scatter<MomentumSums<Basis, true>, fetch_by_p2g>(part, {m_i, v_i[0], v_i[1]}, give_momentum);
     each_node(part.complete, [=](int i, auto count) {
       const Lanes m = load(m_i + i), one_over_m = select(m > 0, 1 / m, 0);
       store_first(count, m_i + i, one_over_m);
@@ -57,10 +52,7 @@ class LaneKernel final : public Kernel {
 
   void map_updated_velocity(const Part& part) override {
     const auto v_i = pair(mapped);
-    scatter<MomentumSums<Basis>, no_fetch>(part, v_i, [](const Block&) {
-      return
-          [](int, const Slot& p, const CellWeights<Basis>& n_p, auto& sums) { sums.add(n_p, p.mass, p.v); };
-    });
+    scatter<MomentumSums<Basis, false>, no_fetch>(part, v_i, give_momentum);
     each_node(part.complete, [=, one_over_m = field(inverse_mass)](int i, auto count) {
       for (int c : {0, 1}) store_first(count, v_i[c] + i, load(v_i[c] + i) * load(one_over_m + i));
     });
@@ -153,6 +145,11 @@ class LaneKernel final : public Kernel {
   }
   [[nodiscard]] std::array<double*, 2> pair(int f) { return {field(f), field(f + 1)}; }
 
+  /// What every slot gives in P2G: see scatter().
+  static constexpr auto give_momentum = [](const Block&) {
+    return [](int, const Slot& p, const CellWeights<Basis>& n_p, auto& sums) { sums.add(n_p, p.mass, p.v); };
+  };
+
   /// D from the nodal velocity; volume V (1 + dt tr D), density m/V; sigma = 2 mu D - (2/3 mu tr D + P) I
   /// (paper Eqs. 21 to 25).
   template <class Law, class Pressure>
@@ -180,6 +177,7 @@ class LaneKernel final : public Kernel {
     return {minus_volume * s.s_00, minus_volume * s.s_11, minus_volume * s.s_01};
   }
 
+  /// a_i = f_i/m_i + b, v_i += dt a_i.
   void accelerate_nodes(Rows nodes, const double b[2], double dt) {
     const auto a_i = pair(acceleration), v_i = pair(velocity);
     const double g[2] = {b[0], b[1]};
@@ -193,8 +191,9 @@ class LaneKernel final : public Kernel {
     });
   }
 
-  /// G2P: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p); x_p += dt v(x_p) (paper Eqs. 18-20).
   enum class Take { Nothing, Flip, Blend };
+
+  /// G2P: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p); x_p += dt v(x_p) (paper Eqs. 18-20).
   template <Take taken, bool moves>
   void gather_from_nodes(const Part& part, [[maybe_unused]] double flip, double dt) {
     Found& found = found_[static_cast<std::size_t>(part.share)];
