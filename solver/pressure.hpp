@@ -20,8 +20,8 @@ struct TaitPressure {
   template <class Real>
   requires(!std::is_integral_v<Real>) [[nodiscard]] Real pressure(const Real& density) const {
     const Real r = density * inverse_reference_density;
-    const Real r3 = r * r * r;
-    return bulk_modulus * (r3 * r3 * r - 1);
+    const Real r2 = r * r;
+    return (bulk_modulus * r * r2) * (r2 * r2) - bulk_modulus;
   }
   /// The density at which the pressure is P [kg/m3]; P > -K.
   [[nodiscard]] double density(double pressure) const {

@@ -4,6 +4,14 @@
 
 namespace mpm::MPM_ISA {
 
+/// Sum over the l-th row of a cell's nodes, each times its function along the row.
+template <class Basis>
+Lanes along_row(const Lanes (&u)[Basis::nodes], int l, const Lanes (&function)[Basis::support[0]]) {
+  Lanes sum = 0;
+  unroll<Basis::support[0]>([&](int k) { sum += function[k] * u[l * Basis::support[0] + k]; });
+  return sum;
+}
+
 /// A nodal field in the cells of a block, read where their particles are.
 template <class Basis>
 class CellField {
@@ -18,14 +26,35 @@ class CellField {
   }
 
   /// u(x_p) = sum_i N_ip u_i
-  [[nodiscard]] Lanes value(const CellWeights<Basis>& n_p) const {
+  [[nodiscard]] Lanes at(const CellWeights<Basis>& n_p) const {
     if constexpr (Basis::is_bilinear) {
       const Lanes s = n_p.along.value[1], t = n_p.across.value[1];
       return (u_[0] + s * u_[1]) + t * (u_[2] + s * u_[3]);
     } else {
       Lanes u = 0;
-      unroll<rows>([&](int l) { u += n_p.across.value[l] * along_row(l, n_p.along.value); });
+      unroll<Basis::support[1]>(
+          [&](int l) { u += n_p.across.value[l] * along_row<Basis>(u_, l, n_p.along.value); });
       return u;
+    }
+  }
+
+ private:
+  /// At the nodes; of a bilinear field a, b, c, d of a + b s + c t + d s t.
+  Lanes u_[Basis::nodes];
+};
+
+/// Gradient of a nodal field in the cells of a block, read where their particles are.
+template <class Basis>
+class CellGradient {
+ public:
+  CellGradient(const Basis& basis, const Block& block, const double* field) {
+    unroll<Basis::nodes>([&](int i) { u_[i] = load(field + block.first_node + basis.offset(i)); });
+    if constexpr (Basis::is_bilinear) {
+      const Lanes b = u_[1] - u_[0], c = u_[2] - u_[0], d = (u_[3] - u_[2]) - b;
+      u_[0] = basis.inverse_h[0] * b;
+      u_[1] = basis.inverse_h[0] * d;
+      u_[2] = basis.inverse_h[1] * c;
+      u_[3] = basis.inverse_h[1] * d;
     }
   }
 
@@ -33,114 +62,39 @@ class CellField {
   struct Gradient {
     Lanes d_0, d_1;
   };
-  [[nodiscard]] Gradient gradient(const CellWeights<Basis>& n_p) const {
+  [[nodiscard]] Gradient at(const CellWeights<Basis>& n_p) const {
     if constexpr (Basis::is_bilinear) {
       const Lanes s = n_p.along.value[1], t = n_p.across.value[1];
-      return {n_p.along.slope[1] * (u_[1] + t * u_[3]), n_p.across.slope[1] * (u_[2] + s * u_[3])};
+      return {u_[0] + t * u_[1], u_[2] + s * u_[3]};
     } else {
       Gradient g{0, 0};
-      unroll<rows>([&](int l) {
-        g.d_0 += n_p.across.value[l] * along_row(l, n_p.along.slope);
-        g.d_1 += n_p.across.slope[l] * along_row(l, n_p.along.value);
+      unroll<Basis::support[1]>([&](int l) {
+        g.d_0 += n_p.across.value[l] * along_row<Basis>(u_, l, n_p.along.slope);
+        g.d_1 += n_p.across.slope[l] * along_row<Basis>(u_, l, n_p.along.value);
       });
       return g;
     }
   }
 
  private:
-  static constexpr int columns = Basis::support[0], rows = Basis::support[1];
-
-  /// Sum over the nodes of one row, each times its function along it.
-  [[nodiscard]] Lanes along_row(int l, const Lanes (&function)[columns]) const {
-    Lanes u = 0;
-    unroll<columns>([&](int k) { u += function[k] * u_[l * columns + k]; });
-    return u;
-  }
-
-  /// At the nodes; of a bilinear field a, b, c, d.
+  /// At the nodes; of a bilinear field b/h_0, d/h_0, c/h_1, d/h_1.
   Lanes u_[Basis::nodes];
 };
 
 /// Both components of a nodal velocity or acceleration.
-template <class Basis>
-struct CellVelocity {
-  CellField<Basis> component[2];
+template <class Field>
+struct Components {
+  Field component[2];
 
-  CellVelocity(const Basis& basis, const Block& block, const std::array<double*, 2>& field)
+  template <class Basis>
+  Components(const Basis& basis, const Block& block, const std::array<double*, 2>& field)
       : component{{basis, block, field[0]}, {basis, block, field[1]}} {}
 
-  const CellField<Basis>& operator[](int c) const { return component[c]; }
+  const Field& operator[](int c) const { return component[c]; }
 };
-
-/// Transpose of CellField::value: what the particles of a block bring to the nodes of their cells of
-/// momentum, sum_p N_ip m_p v_p, and before it, if asked for, of mass, sum_p N_ip m_p.
-template <class Basis, bool with_mass>
-class MomentumSums {
- public:
-  static constexpr int fields = with_mass ? 3 : 2;
-
-  void add(const CellWeights<Basis>& n_p, Lanes m, const Lanes (&v)[2]) {
-    n_p.values_times(m, [&](int i, Lanes n_m) {
-      if constexpr (with_mass) sum_[0][i] += n_m;
-      sum_[fields - 2][i] += n_m * v[0];
-      sum_[fields - 1][i] += n_m * v[1];
-    });
-  }
-
-  [[nodiscard]] Lanes at(const Basis&, int field, int i) const { return sum_[field][i]; }
-
- private:
-  Lanes sum_[fields][Basis::nodes] = {};
-};
-
-/// Transpose of CellField::gradient: sum_p Q_p grad N_ip of a symmetric tensor Q, two components.
 template <class Basis>
-class DivergenceSums {
- public:
-  static constexpr int fields = 2;
-
-  void add(const CellWeights<Basis>& n_p, const Stress& q) {
-    if constexpr (Basis::is_bilinear) {
-      const Lanes s = n_p.along.value[1], t = n_p.across.value[1];
-      const Lanes q_0[2] = {q.s_00, q.s_01}, q_1[2] = {q.s_01, q.s_11};
-      for (int c : {0, 1}) {
-        sum_[c][0] += q_0[c];
-        sum_[c][1] += q_0[c] * t;
-        sum_[c][2] += q_1[c];
-        sum_[c][3] += q_1[c] * s;
-      }
-    } else {
-      add_tensor_products(n_p, q);
-    }
-  }
-
-  [[nodiscard]] Lanes at(const Basis& basis, int field, int i) const {
-    const Lanes* sum = sum_[field];
-    if constexpr (Basis::is_bilinear) {
-      // dN/dx_0 is -(1 - t), 1 - t, -t, t over h_0, dN/dx_1 is -(1 - s), -s, 1 - s, s over h_1.
-      const Lanes along = basis.inverse_h[0] * (i / 2 ? sum[1] : sum[0] - sum[1]);
-      const Lanes across = basis.inverse_h[1] * (i % 2 ? sum[3] : sum[2] - sum[3]);
-      return (i % 2 ? along : 0 - along) + (i / 2 ? across : 0 - across);
-    } else {
-      return sum[i];
-    }
-  }
-
- private:
-  void add_tensor_products(const CellWeights<Basis>& n_p, const Stress& q) {
-    constexpr int columns = Basis::support[0], rows = Basis::support[1];
-    unroll<rows>([&](int l) {
-      const Lanes n = n_p.across.value[l], dn = n_p.across.slope[l];
-      const Lanes n_00 = n * q.s_00, n_01 = n * q.s_01, dn_01 = dn * q.s_01, dn_11 = dn * q.s_11;
-      unroll<columns>([&](int k) {
-        sum_[0][l * columns + k] += n_00 * n_p.along.slope[k] + dn_01 * n_p.along.value[k];
-        sum_[1][l * columns + k] += n_01 * n_p.along.slope[k] + dn_11 * n_p.along.value[k];
-      });
-    });
-  }
-
-  /// At the nodes; of the bilinear basis the sums of Q_c0, Q_c0 t, Q_c1, Q_c1 s.
-  Lanes sum_[fields][Basis::nodes] = {};
-};
+using CellVelocity = Components<CellField<Basis>>;
+template <class Basis>
+using CellVelocityGradient = Components<CellGradient<Basis>>;
 
 }  // namespace mpm::MPM_ISA

@@ -49,20 +49,6 @@ struct LineWeights {
   }
 };
 
-/// The cells of a block, with what their basis functions are made of.
-template <class Basis>
-struct CellFrame {
-  const Basis& basis;
-  const Block& block;
-  Lanes first[2];  ///< number of the cell along each axis
-
-  CellFrame(const Basis& basis, const Block& block)
-      : basis(basis), block(block), first{to_lanes(block.cell[0]), to_lanes(block.cell[1])} {}
-
-  /// Place in the cell, 0 to 1 along axis c, of a coordinate [m].
-  [[nodiscard]] Lanes place(Lanes x, int c) const { return x * basis.inverse_h[c] - first[c]; }
-};
-
 /// N_ip and grad N_ip of the particles of a slot at the nodes i of their cells: products of one function
 /// along and one across the lanes.
 template <class Basis>
@@ -71,9 +57,10 @@ struct CellWeights {
   LineWeights<Basis::degree, columns> along;
   LineWeights<Basis::degree, rows> across;
 
-  CellWeights(const CellFrame<Basis>& cells, const Lanes x[2])
-      : along(cells.place(x[0], 0), cells.basis.inverse_h[0], cells.block.polynomials[0]),
-        across(cells.place(x[1], 1), cells.basis.inverse_h[1], cells.block.polynomials[1]) {}
+  /// s: their places in the cells
+  CellWeights(const Basis& basis, const Block& block, const Lanes s[2])
+      : along(s[0], basis.inverse_h[0], block.polynomials[0]),
+        across(s[1], basis.inverse_h[1], block.polynomials[1]) {}
 
   /// visit(i, q N_i)
   template <class Visit>

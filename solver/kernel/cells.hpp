@@ -14,7 +14,7 @@ namespace mpm::MPM_ISA {
 
 /// Particles of `width` neighbouring cells, one of each. An empty lane has no mass and rests in its cell.
 struct Slot {
-  Lanes x[2], v[2];    ///< position [m], velocity [m/s]
+  Lanes s[2], v[2];    ///< place in the cell, 0 to 1 along each axis; velocity [m/s]
   Lanes mass, volume;  ///< per unit depth [kg/m], [m2]; both zero in an empty lane
 };
 
@@ -22,6 +22,10 @@ struct Slot {
 /// it, so it lies apart.
 struct Stress {
   Lanes s_00, s_11, s_01;
+
+  friend Stress operator*(Lanes factor, const Stress& s) {
+    return {factor * s.s_00, factor * s.s_11, factor * s.s_01};
+  }
 };
 
 /// What a slot's particles were called when they came.
@@ -33,7 +37,6 @@ struct Names {
 struct Block {
   int first_node;               ///< of the first cell
   int count[width] = {};        ///< particles a cell
-  int cell[2][width];           ///< number of the cell along each axis
   const Lanes* polynomials[2];  ///< of the basis in these cells: Axis::polynomials across lanes
   std::size_t first_slot;       ///< in the store of all slots
   int size = 0, capacity = 0;   ///< slots in use, slots reserved
@@ -53,34 +56,30 @@ class Cells {
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       Block& block = blocks_[b];
       block.first_node = static_cast<int>(b) * width;
-      for (int lane = 0; lane < width; ++lane) {
-        const int n = block.first_node + lane;
-        // Numbers that belong to no cell take the nearest, so that their arithmetic stays harmless.
-        block.cell[0][lane] = std::min(n % stride_, axis_[0].cells - 1);
-        block.cell[1][lane] = std::min(n / stride_, axis_[1].cells - 1);
-      }
       for (int a : {0, 1}) block.polynomials[a] = polynomials_across(block, a);
     }
     for (std::size_t p = 0; p < setup.count; ++p) {
-      const int number = number_of_cell(setup.points[p].position);
+      const int number = place_of(setup.points[p]).number(stride_);
       Block& block = blocks_[static_cast<std::size_t>(number / width)];
       block.capacity = std::max(block.capacity, ++block.count[number % width]);
+      most_slots_ = std::max(most_slots_, static_cast<std::size_t>(block.capacity));
     }
     for (Block& block : blocks_) std::fill(block.count, block.count + width, 0);
     store_anew();
     for (std::size_t p = 0; p < setup.count; ++p) {
       const PointState& point = setup.points[p];
-      const Address to = add(number_of_cell(point.position));
+      const Place place = place_of(point);
+      const Address to = add(place.number(stride_));
       name_at(to) = static_cast<int>(p);
       Slot& slot = slot_at(to);
       for (int c : {0, 1}) {
-        slot.x[c][to.lane] = point.position[c];
+        slot.s[c][to.lane] = place.s[c];
         slot.v[c][to.lane] = point.velocity[c];
       }
       slot.mass[to.lane] = point.mass;
       slot.volume[to.lane] = point.mass / point.density;
       const auto& [s_00, s_11, s_01] = point.stress;
-      Stress& stress = stresses_[place_of(to)];
+      Stress& stress = stresses_[index_of(to)];
       stress.s_00[to.lane] = s_00;
       stress.s_11[to.lane] = s_11;
       stress.s_01[to.lane] = s_01;
@@ -89,10 +88,13 @@ class Cells {
 
   [[nodiscard]] int stride() const { return stride_; }
   [[nodiscard]] int count() const { return static_cast<int>(blocks_.size()) * width; }
-  /// The first cell of a row that begins a block.
-  [[nodiscard]] int first_of_row(int row) const { return (row * stride_ + width - 1) / width * width; }
-  /// The block that begins with a cell.
-  [[nodiscard]] const Block& block(int cell) const { return blocks_[static_cast<std::size_t>(cell / width)]; }
+  /// Of a block; the most there ever were.
+  [[nodiscard]] std::size_t most_slots() const { return most_slots_; }
+  /// The blocks that begin in some rows.
+  [[nodiscard]] std::span<const Block> blocks(Rows rows) const {
+    const std::size_t begin = first_of_row(rows.begin);
+    return {blocks_.data() + begin, first_of_row(rows.end) - begin};
+  }
   [[nodiscard]] std::span<Slot> slots(const Block& block) {
     return {slots_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
   }
@@ -103,9 +105,10 @@ class Cells {
     return {slots_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
   }
 
-  /// Where to find the slots of the block that begins with a cell; nowhere beyond the last.
-  [[nodiscard]] const Slot* address_of(int cell) const {
-    return cell < count() ? slots_.data() + block(cell).first_slot : nullptr;
+  /// Those of the block that begins with a cell; none beyond the last.
+  [[nodiscard]] std::span<const Slot> slots_of_cell(int cell) const {
+    if (cell >= count()) return {};
+    return slots(blocks_[static_cast<std::size_t>(cell / width)]);
   }
 
   /// Puts particles that left their cell into the one where they are, around periodic sides. `movers` in the
@@ -115,20 +118,19 @@ class Cells {
     // Backwards, so that filling a gap from the end of a lane never moves one that is still to come.
     for (auto mover = movers.rbegin(); mover != movers.rend(); ++mover) {
       Slot& slot = slot_at(*mover);
-      double position[2];
-      bool here = true;
-      for (int a : {0, 1}) {
-        position[a] = slot.x[a][mover->lane];
-        here &= contain(axis_[static_cast<std::size_t>(a)], position[a]);
-        if (here) slot.x[a][mover->lane] = position[a];
-      }
+      const int from = mover->block * width + mover->lane;
+      Place place{{from % stride_, from / stride_}, {slot.s[0][mover->lane], slot.s[1][mover->lane]}};
+      const bool here =
+          contain(axis_[0], place.cell[0], place.s[0]) && contain(axis_[1], place.cell[1], place.s[1]);
       inside &= here;
       if (!here) continue;
-      const int number = number_of_cell(position);
-      if (number == mover->block * width + mover->lane) continue;
-      const Address to = add(number);
-      copy(*mover, to);
-      remove(*mover);
+      Address to = *mover;
+      if (place.number(stride_) != from) {
+        to = add(place.number(stride_));
+        copy(*mover, to);
+        remove(*mover);
+      }
+      for (int a : {0, 1}) slot_at(to).s[a][to.lane] = place.s[a];
     }
     return inside;
   }
@@ -138,10 +140,15 @@ class Cells {
     for (const Block& block : blocks_)
       for (int lane = 0; lane < width; ++lane)
         for (int k = 0; k < block.count[lane]; ++k) {
+          const int number = block.first_node + lane;
+          const auto position = [&](const LineOfCells& axis, int cell, double s) {
+            return std::min((cell + s) / axis.inverse_h, axis.length);
+          };
           const std::size_t at = block.first_slot + static_cast<std::size_t>(k);
           const Slot& slot = slots_[at];
           const Stress& stress = stresses_[at];
-          points[names_[at].of[lane]] = {{slot.x[0][lane], slot.x[1][lane]},
+          points[names_[at].of[lane]] = {{position(axis_[0], number % stride_, slot.s[0][lane]),
+                                          position(axis_[1], number / stride_, slot.s[1][lane])},
                                          {slot.v[0][lane], slot.v[1][lane]},
                                          slot.mass[lane],
                                          slot.mass[lane] / slot.volume[lane],
@@ -150,29 +157,49 @@ class Cells {
   }
 
  private:
-  /// As Axis::contain.
-  static bool contain(const LineOfCells& axis, double& x) {
-    if (x >= 0 && x <= axis.length) return true;
-    if (!axis.periodic || !(x - x == 0)) return false;  // x - x: not finite
-    x -= axis.length * std::floor(x / axis.length);
-    return x >= 0 && x <= axis.length;
+  [[nodiscard]] std::size_t first_of_row(int row) const {
+    return static_cast<std::size_t>((row * stride_ + width - 1) / width);
   }
 
-  [[nodiscard]] int number_of_cell(const double position[2]) const {
+  /// Where a particle is: number of its cell along each axis, and place in the cell.
+  struct Place {
     int cell[2];
+    double s[2];
+
+    [[nodiscard]] int number(int stride) const { return cell[1] * stride + cell[0]; }
+  };
+  [[nodiscard]] Place place_of(const PointState& point) const {
+    Place place;
     for (int a : {0, 1}) {
       const LineOfCells& axis = axis_[static_cast<std::size_t>(a)];
-      cell[a] = std::clamp(static_cast<int>(position[a] * axis.inverse_h), 0, axis.cells - 1);
+      const double cells = point.position[a] * axis.inverse_h;
+      place.cell[a] = std::clamp(static_cast<int>(cells), 0, axis.cells - 1);
+      place.s[a] = cells - place.cell[a];
     }
-    return cell[1] * stride_ + cell[0];
+    return place;
+  }
+
+  /// As Axis::contain, in cells: takes what s has beyond 0 to 1 to the number of the cell. A point on the far
+  /// end belongs to the last cell.
+  static bool contain(const LineOfCells& axis, int& cell, double& s) {
+    const double steps = std::floor(s), end = axis.cells;
+    double number = cell + steps;
+    if (axis.periodic) number -= end * std::floor(number / end);
+    s -= steps;
+    if (number == end && s == 0) {
+      number = end - 1;
+      s = 1;
+    }
+    cell = number >= 0 && number < end ? static_cast<int>(number) : -1;  // so is what is not finite
+    return cell >= 0 && s >= 0 && s <= 1;
   }
 
   Block& block_at(const Address& at) { return blocks_[static_cast<std::size_t>(at.block)]; }
-  std::size_t place_of(const Address& at) {
+  std::size_t index_of(const Address& at) {
     return block_at(at).first_slot + static_cast<std::size_t>(at.slot);
   }
-  Slot& slot_at(const Address& at) { return slots_[place_of(at)]; }
-  int& name_at(const Address& at) { return names_[place_of(at)].of[at.lane]; }
+  Slot& slot_at(const Address& at) { return slots_[index_of(at)]; }
+  int& name_at(const Address& at) { return names_[index_of(at)].of[at.lane]; }
 
   /// Makes room for one more particle in a cell.
   Address add(int number) {
@@ -182,8 +209,8 @@ class Cells {
     if (at.slot == block.size) {
       if (block.size == block.capacity) grow(block);
       ++block.size;
-      slot_at(at) = empty_slot(block);
-      stresses_[place_of(at)] = {0, 0, 0};
+      slot_at(at) = empty_slot();
+      stresses_[index_of(at)] = {0, 0, 0};
     }
     return at;
   }
@@ -191,6 +218,7 @@ class Cells {
   /// Moves a block to the end of the store with room to spare; when the end is reached, everything moves.
   [[gnu::noinline]] void grow(Block& block) {
     block.capacity = 2 * std::max(1, block.capacity);
+    most_slots_ = std::max(most_slots_, static_cast<std::size_t>(block.capacity));
     if (end_ + static_cast<std::size_t>(block.capacity) > slots_.size()) return store_anew();
     const auto move = [&](auto& array) {
       const auto begin = array.begin();
@@ -231,14 +259,14 @@ class Cells {
     Block& block = block_at(at);
     const Address last{at.block, at.lane, --block.count[at.lane]};
     if (last.slot != at.slot) copy(last, at);
-    copy_lane(empty_slot(block), slot_at(last), at.lane, at.lane);
+    copy_lane(empty_slot(), slot_at(last), at.lane, at.lane);
     block.size = *std::max_element(block.count, block.count + width);
   }
 
   void copy(const Address& from, const Address& to) {
     copy_lane(slot_at(from), slot_at(to), from.lane, to.lane);
-    const Stress& stress = stresses_[place_of(from)];
-    Stress& copied = stresses_[place_of(to)];
+    const Stress& stress = stresses_[index_of(from)];
+    Stress& copied = stresses_[index_of(to)];
     copied.s_00[to.lane] = stress.s_00[from.lane];
     copied.s_11[to.lane] = stress.s_11[from.lane];
     copied.s_01[to.lane] = stress.s_01[from.lane];
@@ -247,22 +275,14 @@ class Cells {
 
   static void copy_lane(const Slot& from, Slot& to, int from_lane, int to_lane) {
     for (int c : {0, 1}) {
-      to.x[c][to_lane] = from.x[c][from_lane];
+      to.s[c][to_lane] = from.s[c][from_lane];
       to.v[c][to_lane] = from.v[c][from_lane];
     }
     to.mass[to_lane] = from.mass[from_lane];
     to.volume[to_lane] = from.volume[from_lane];
   }
 
-  [[nodiscard]] Slot empty_slot(const Block& block) const {
-    Slot slot;
-    for (int c : {0, 1}) {
-      slot.x[c] = (to_lanes(block.cell[c]) + 0.5) / Lanes(axis_[static_cast<std::size_t>(c)].inverse_h);
-      slot.v[c] = 0;
-    }
-    slot.mass = slot.volume = 0;
-    return slot;
-  }
+  static Slot empty_slot() { return {{0.5, 0.5}, {0, 0}, 0, 0}; }
 
   /// Polynomials of a block's cells along an axis. Most blocks share theirs with others.
   const Lanes* polynomials_across(const Block& block, int a) {
@@ -271,11 +291,17 @@ class Cells {
     for (int m = 0; m < size; ++m)
       for (int lane = 0; lane < width; ++lane)
         across[static_cast<std::size_t>(m)][lane] =
-            axis_[static_cast<std::size_t>(a)].polynomials[block.cell[a][lane] * size + m];
+            axis_[static_cast<std::size_t>(a)].polynomials[cell_along(block.first_node + lane, a) * size + m];
     for (const auto& known : polynomials_)
       if (std::memcmp(known.data(), across.data(), across.size() * sizeof(Lanes)) == 0) return known.data();
     polynomials_.push_back(std::move(across));
     return polynomials_.back().data();
+  }
+
+  /// Numbers that belong to no cell take the nearest, so that their arithmetic stays harmless.
+  [[nodiscard]] int cell_along(int number, int a) const {
+    return std::min(a == 0 ? number % stride_ : number / stride_,
+                    axis_[static_cast<std::size_t>(a)].cells - 1);
   }
 
   std::array<LineOfCells, 2> axis_;
@@ -284,6 +310,7 @@ class Cells {
   LargeArray<Slot> slots_;  // of one block after another
   LargeArray<Stress> stresses_;
   LargeArray<Names> names_;
+  std::size_t most_slots_ = 0;
   std::size_t end_ = 0;  // of the slots that blocks have reserved
   std::vector<std::vector<Lanes>> polynomials_;
 };

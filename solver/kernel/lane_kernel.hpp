@@ -2,7 +2,9 @@
 
 #include <variant>
 
-#include "solver/kernel/tile_sums.hpp"
+#include "solver/kernel/cell_field.hpp"
+#include "solver/kernel/nodal_fields.hpp"
+#include "solver/kernel/node_sums.hpp"
 
 namespace mpm::MPM_ISA {
 
@@ -13,78 +15,78 @@ class LaneKernel final : public Kernel {
   explicit LaneKernel(const KernelSetup& setup)
       : cells_(setup),
         basis_{{setup.axis[0].inverse_h, setup.axis[1].inverse_h}, cells_.stride()},
-        periodic_{setup.axis[0].periodic, setup.axis[1].periodic && !setup.strip},
-        count_{setup.axis[0].cells, setup.axis[1].cells},
-        rows_(setup.axis[1].cells + Basis::support[1] - 1),
+        fields_(fields_of(setup)),
         rheology_(setup.rheology),
         pressure_(setup.pressure),
         has_pressure_(setup.has_pressure),
-        found_(static_cast<std::size_t>(setup.shares)) {
-    // Blocks at the end read and write beyond the last node, within a margin. Fields begin some cache lines
-    // apart modulo a page: at the same place in their pages they would compete for the same lines of the
-    // cache.
-    constexpr std::size_t page = 4096 / sizeof(double), apart = 9 * 64 / sizeof(double);
-    const auto size = static_cast<std::size_t>(std::max(rows_ * cells_.stride(), cells_.count()) +
-                                               basis_.offset(Basis::nodes - 1) + 2 * margin);
-    field_size_ = (size + page - 1) / page * page + apart;
-    fields_.assign(field_count * field_size_ / static_cast<std::size_t>(width), Lanes(0));
+        shares_(static_cast<std::size_t>(setup.shares)) {
+    make_room();
   }
 
   NodeFields nodes() override {
-    const auto at = [&](int f) { return field(f); };
-    return {at(inverse_mass),
-            {at(velocity), at(velocity + 1)},
-            {at(mapped), at(mapped + 1)},
-            {at(acceleration), at(acceleration + 1)}};
+    const auto v = fields_.velocity(), w = fields_.mapped(), a = fields_.acceleration();
+    return {fields_.inverse_mass(), {v[0], v[1]}, {w[0], w[1]}, {a[0], a[1]}};
   }
 
   /// P2G: m_i = sum_p N_ip m_p, v_i = sum_p N_ip m_p v_p / m_i (paper Eqs. 14-15).
   void map_velocity(const Part& part) override {
-    double* const m_i = field(inverse_mass);
-    const auto v_i = pair(velocity);
-    scatter<MomentumSums<Basis, true>, fetch_by_p2g>(part, {m_i, v_i[0], v_i[1]}, give_momentum);
-    each_node(part.complete, [=](int i, auto count) {
+    double* const m_i = fields_.inverse_mass();
+    const Pair v_i = fields_.velocity();
+    scatter<MomentumSums<Basis, true>>(part, {m_i, v_i[0], v_i[1]}, [&](const Block& block, auto& sums) {
+      fetch_ahead<fetch_by_p2g>(block, part);
+      each_slot(block,
+                [&](int, const Slot& p, const CellWeights<Basis>& n_p) { sums.add(n_p, p.mass, p.v); });
+    });
+    fields_.each_node(part.complete, [=](int i, auto count) {
       const Lanes m = load(m_i + i), one_over_m = select(m > 0, 1 / m, 0);
       store_first(count, m_i + i, one_over_m);
-      for (int c : {0, 1}) store_first(count, v_i[c] + i, load(v_i[c] + i) * one_over_m);
+      for (double* v : v_i) store_first(count, v + i, load(v + i) * one_over_m);
     });
   }
 
   void map_updated_velocity(const Part& part) override {
-    const auto v_i = pair(mapped);
-    scatter<MomentumSums<Basis, false>, no_fetch>(part, v_i, give_momentum);
-    each_node(part.complete, [=, one_over_m = field(inverse_mass)](int i, auto count) {
-      for (int c : {0, 1}) store_first(count, v_i[c] + i, load(v_i[c] + i) * load(one_over_m + i));
+    const Pair v_i = fields_.mapped();
+    scatter<MomentumSums<Basis, false>>(part, v_i, [&](const Block& block, auto& sums) {
+      each_slot(block,
+                [&](int, const Slot& p, const CellWeights<Basis>& n_p) { sums.add(n_p, p.mass, p.v); });
+    });
+    fields_.each_node(part.complete, [=, one_over_m = fields_.inverse_mass()](int i, auto count) {
+      for (double* v : v_i) store_first(count, v + i, load(v + i) * load(one_over_m + i));
     });
   }
 
   void update_stress(const Part& part, NodalVelocity from, double dt) override {
+    const Pair v_i = from == NodalVelocity::Current ? fields_.velocity() : fields_.mapped();
     with_fluid([&](const auto& law, const auto& pressure) {
       each_block(part.cells, [&](const Block& block) {
-        const CellVelocity<Basis> v(basis_, block, pair(from == NodalVelocity::Current ? velocity : mapped));
         const auto stress = cells_.stresses(block).begin();
-        each_slot<no_fetch>(block, part, [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
-          stress[k] = stress_of(p, n_p, v, law, pressure, dt);
-        });
+        strain(block, part, v_i, dt, pressure,
+               [&](int k, const Slot&, const Strained& strained, const CellWeights<Basis>&) {
+                 stress[k] = stress_of(strained, law, pressure, 1);
+               });
       });
     });
   }
 
   void accelerate(const Part& part, const double b[2], double dt) override {
-    scatter<DivergenceSums<Basis>, fetch_by_forces>(part, pair(acceleration), [&](const Block& block) {
-      return [stress = cells_.stresses(block).begin()](int k, const Slot& p, const CellWeights<Basis>& n_p,
-                                                       auto& sums) { sums.add(n_p, force_of(p, stress[k])); };
+    scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
+      fetch_ahead<fetch_by_forces>(block, part);
+      const auto stress = cells_.stresses(block).begin();
+      each_slot(block, [&](int k, const Slot& p, const CellWeights<Basis>& n_p) {
+        sums.add(n_p, force_factor(p) * stress[k]);
+      });
     });
     accelerate_nodes(part.complete, b, dt);
   }
 
   void update_stress_and_accelerate(const Part& part, const double b[2], double dt) override {
     with_fluid([&](const auto& law, const auto& pressure) {
-      scatter<DivergenceSums<Basis>, fetch_by_forces>(part, pair(acceleration), [&](const Block& block) {
-        const CellVelocity<Basis> v(basis_, block, pair(velocity));
-        return [=, &law, &pressure](int, Slot& p, const CellWeights<Basis>& n_p, auto& sums) {
-          sums.add(n_p, force_of(p, stress_of(p, n_p, v, law, pressure, dt)));
-        };
+      scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
+        fetch_ahead<fetch_by_forces>(block, part);
+        strain(block, part, fields_.velocity(), dt, pressure,
+               [&](int, const Slot& p, const Strained& strained, const CellWeights<Basis>& n_p) {
+                 sums.add(n_p, stress_of(strained, law, pressure, force_factor(p)));
+               });
       });
     });
     accelerate_nodes(part.complete, b, dt);
@@ -106,84 +108,108 @@ class LaneKernel final : public Kernel {
 
   Motion settle() override {
     Motion motion;
-    for (Found& found : found_) {
-      motion.energy += sum(found.energy);
-      motion.dense &= !(found.least_volume < 0).any();
-      motion.inside &= cells_.rehouse(found.left);
-      found.left.clear();
-      found.energy = found.least_volume = 0;
+    for (Share& share : shares_) {
+      motion.energy += sum(share.energy);
+      motion.dense &= !(share.least_volume < 0).any();
+      motion.inside &= cells_.rehouse(share.left);
+      share.left.clear();
+      share.energy = share.least_volume = 0;
     }
+    make_room();
     return motion;
   }
 
   void gather(PointState* points) const override { cells_.gather(points); }
 
  private:
-  enum {
-    inverse_mass,  // mass until a part is complete; zero where there is none
-    velocity,
-    mapped = velocity + 2,
-    acceleration = mapped + 2,  // force until a part is complete
-    field_count = acceleration + 2
-  };
+  using Pair = NodalFields::Pair;
 
   /// Part of a slot, in sixths of its size. The passes of a step share a slot out as they share out its time,
   /// so that memory is busy all along.
   struct Fetch {
     std::size_t first, sixths;
   };
-  static constexpr Fetch no_fetch{0, 0}, fetch_by_p2g{0, 1}, fetch_by_forces{1, 3}, fetch_by_g2p{4, 2};
+  static constexpr Fetch fetch_by_p2g{0, 1}, fetch_by_forces{1, 3}, fetch_by_g2p{4, 2};
 
-  /// What a share of the cells reports when its particles have moved.
-  struct alignas(64) Found {
-    Lanes energy = 0, least_volume = 0;
-    std::vector<Address> left;
+  /// Strain rate of a slot's particles [1/s]: du_0/dx_0, du_1/dx_1, du_0/dx_1 + du_1/dx_0; density [kg/m3],
+  /// where it varies.
+  struct Strained {
+    Lanes d_00, d_11, shear, density;
   };
 
-  [[nodiscard]] double* field(int f) {
-    return reinterpret_cast<double*>(fields_.data()) + static_cast<std::size_t>(f) * field_size_;
+  /// What belongs to a share of the cells alone, so that threads need not agree.
+  struct alignas(64) Share {
+    Lanes energy = 0, least_volume = 0;  // that its particles were found to have
+    std::vector<Address> left;           // particles no longer in their cells
+    std::vector<Strained> strained;      // of one block at a time
+  };
+
+  void make_room() {
+    for (Share& share : shares_) share.strained.resize(cells_.most_slots());
   }
-  [[nodiscard]] std::array<double*, 2> pair(int f) { return {field(f), field(f + 1)}; }
 
-  /// What every slot gives in P2G: see scatter().
-  static constexpr auto give_momentum = [](const Block&) {
-    return [](int, const Slot& p, const CellWeights<Basis>& n_p, auto& sums) { sums.add(n_p, p.mass, p.v); };
-  };
+  [[nodiscard]] NodalFields fields_of(const KernelSetup& setup) const {
+    const auto& [along, across] = setup.axis;
+    const bool is_periodic_across = across.periodic && !setup.strip;
+    const int rows = across.cells + Basis::support[1] - 1;
+    // Blocks at the end read and write beyond the last node.
+    const int size =
+        std::max(rows * cells_.stride(), cells_.count()) + basis_.offset(Basis::nodes - 1) + 2 * width;
+    return {{along.cells, across.cells},
+            {along.periodic, is_periodic_across},
+            rows,
+            cells_.stride(),
+            static_cast<std::size_t>(size)};
+  }
 
-  /// D from the nodal velocity; volume V (1 + dt tr D), density m/V; sigma = 2 mu D - (2/3 mu tr D + P) I
-  /// (paper Eqs. 21 to 25).
+  /// Strain rates from the nodal velocity, volumes V (1 + dt tr D), then visit(k, slot, strained, weights).
+  template <class Pressure, class Visit>
+  void strain(const Block& block, const Part& part, const Pair& v_i, double dt, const Pressure&,
+              Visit&& visit) {
+    Share& share = shares_[static_cast<std::size_t>(part.share)];
+    Strained* const strained = share.strained.data();
+    const CellVelocityGradient<Basis> grad_v(basis_, block, v_i);
+    Lanes least_volume = 0;
+    const auto strain_slot = [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
+      const auto [d_00, d_01] = grad_v[0].at(n_p);
+      const auto [d_10, d_11] = grad_v[1].at(n_p);
+      strained[k] = {d_00, d_11, d_01 + d_10, 0};
+      if constexpr (Pressure::varies) {
+        p.volume = p.volume * (1 + dt * (d_00 + d_11));
+        strained[k].density = p.mass / select(p.mass > 0, p.volume, 1);
+        least_volume = least(least_volume, p.volume);
+      }
+    };
+    each_slot(block, strain_slot,
+              [&](int k, const Slot& p, const CellWeights<Basis>& n_p) { visit(k, p, strained[k], n_p); });
+    share.least_volume = least(share.least_volume, least_volume);
+  }
+
+  /// -V_p: times sigma_p grad N_ip it is the particle's share of f_i (paper Eq. 17); V_p = m_p/rho_p.
+  static Lanes force_factor(const Slot& p) { return 0 - p.volume; }
+
+  /// factor sigma with sigma = 2 mu D - (2/3 mu tr D + P) I (paper Eqs. 21 to 25).
   template <class Law, class Pressure>
-  static Stress stress_of(Slot& p, const CellWeights<Basis>& n_p, const CellVelocity<Basis>& v,
-                          const Law& law, const Pressure& pressure, double dt) {
-    const auto [d_00, d_01] = v[0].gradient(n_p);
-    const auto [d_10, d_11] = v[1].gradient(n_p);
-    const Lanes shear = 0.5 * (d_01 + d_10), dilatation = d_00 + d_11;
+  static Stress stress_of(const Strained& p, const Law& law, const Pressure& pressure, Lanes factor) {
     Lanes mu;
     if constexpr (Law::needs_shear_rate)
-      mu = law.viscosity(2 * (d_00 * d_00 + d_11 * d_11) + 4 * (shear * shear));
+      mu = law.viscosity(2 * (p.d_00 * p.d_00 + p.d_11 * p.d_11) + p.shear * p.shear);
     else
       mu = law.viscosity();
-    Lanes isotropic = -(2.0 / 3.0) * mu * dilatation;
-    if constexpr (Pressure::varies) {
-      p.volume = p.volume * (1 + dt * dilatation);
-      isotropic = isotropic - pressure.pressure(p.mass / select(p.mass > 0, p.volume, 1));
-    }
-    return {2 * mu * d_00 + isotropic, 2 * mu * d_11 + isotropic, 2 * mu * shear};
-  }
-
-  /// -V_p sigma_p, which times grad N_ip is the particle's share of f_i (paper Eq. 17); V_p = m_p/rho_p.
-  static Stress force_of(const Slot& p, const Stress& s) {
-    const Lanes minus_volume = 0 - p.volume;
-    return {minus_volume * s.s_00, minus_volume * s.s_11, minus_volume * s.s_01};
+    Lanes isotropic = -(2.0 / 3.0) * mu * (p.d_00 + p.d_11);
+    if constexpr (Pressure::varies) isotropic = isotropic - pressure.pressure(p.density);
+    isotropic = factor * isotropic;
+    mu = factor * mu;
+    return {2 * mu * p.d_00 + isotropic, 2 * mu * p.d_11 + isotropic, mu * p.shear};
   }
 
   /// a_i = f_i/m_i + b, v_i += dt a_i.
   void accelerate_nodes(Rows nodes, const double b[2], double dt) {
-    const auto a_i = pair(acceleration), v_i = pair(velocity);
+    const Pair a_i = fields_.acceleration(), v_i = fields_.velocity();
     const double g[2] = {b[0], b[1]};
-    each_node(nodes, [=, inverse = field(inverse_mass)](int i, auto count) {
+    fields_.each_node(nodes, [=, inverse = fields_.inverse_mass()](int i, auto count) {
       const Lanes one_over_m = load(inverse + i);
-      for (int c : {0, 1}) {
+      for (std::size_t c : {0, 1}) {
         const Lanes a = select(one_over_m > 0, load(a_i[c] + i) * one_over_m + g[c], 0);
         store_first(count, a_i[c] + i, a);
         store_first(count, v_i[c] + i, load(v_i[c] + i) + dt * a);
@@ -196,36 +222,36 @@ class LaneKernel final : public Kernel {
   /// G2P: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p); x_p += dt v(x_p) (paper Eqs. 18-20).
   template <Take taken, bool moves>
   void gather_from_nodes(const Part& part, [[maybe_unused]] double flip, double dt) {
-    Found& found = found_[static_cast<std::size_t>(part.share)];
+    Share& share = shares_[static_cast<std::size_t>(part.share)];
+    const double cells_a_step[2] = {dt * basis_.inverse_h[0], dt * basis_.inverse_h[1]};
     each_block(part.cells, [&](const Block& block) {
-      const CellVelocity<Basis> v(basis_, block, pair(velocity));
-      const CellVelocity<Basis> a(basis_, block, pair(acceleration));
-      Lanes energy = 0, least_volume = 0, lowest = 0, highest = 0;
-      const CellFrame<Basis> cells(basis_, block);
-      each_slot<taken == Take::Nothing ? no_fetch : fetch_by_g2p>(
-          block, part, [&](int, Slot& p, const CellWeights<Basis>& n_p) {
-            const Lanes v_x[2] = {v[0].value(n_p), v[1].value(n_p)};
-            for (int c : {0, 1}) {
-              if constexpr (taken == Take::Flip) p.v[c] += dt * a[c].value(n_p);
-              if constexpr (taken == Take::Blend)
-                p.v[c] = flip * (p.v[c] + dt * a[c].value(n_p)) + (1 - flip) * v_x[c];
-            }
-            if constexpr (moves) {
-              for (int c : {0, 1}) {
-                p.x[c] = select(p.mass > 0, p.x[c] + dt * v_x[c], p.x[c]);
-                const Lanes s = cells.place(p.x[c], c);
-                lowest = least(lowest, s);
-                highest = largest(highest, s);
-              }
-              energy += p.mass * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
-              least_volume = least(least_volume, p.volume);
-            }
-          });
-      if constexpr (moves) {
-        found.energy += energy;
-        found.least_volume = least(found.least_volume, least_volume);
-        if ((lowest < 0).any() || (highest >= 1).any()) list_movers(block, found.left);
-      }
+      if constexpr (taken != Take::Nothing) fetch_ahead<fetch_by_g2p>(block, part);
+      const CellVelocity<Basis> v(basis_, block, fields_.velocity());
+      const CellVelocity<Basis> a(basis_, block, fields_.acceleration());
+      Lanes energy = 0, lowest = 0, highest = 0;
+      const auto take = [&](int, Slot& p, const CellWeights<Basis>& n_p) {
+        for (int c : {0, 1}) {
+          if constexpr (taken == Take::Flip) p.v[c] += dt * a[c].at(n_p);
+          if constexpr (taken == Take::Blend)
+            p.v[c] = flip * (p.v[c] + dt * a[c].at(n_p)) + (1 - flip) * v[c].at(n_p);
+        }
+        energy += p.mass * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
+      };
+      const auto move = [&](int, Slot& p, const CellWeights<Basis>& n_p) {
+        for (int c : {0, 1}) {
+          p.s[c] = select(p.mass > 0, p.s[c] + cells_a_step[c] * v[c].at(n_p), p.s[c]);
+          lowest = least(lowest, p.s[c]);
+          highest = largest(highest, p.s[c]);
+        }
+      };
+      if constexpr (taken == Take::Nothing)
+        each_slot(block, move);
+      else if constexpr (!moves)
+        each_slot(block, take);
+      else
+        each_slot(block, take, move);
+      share.energy += energy;
+      if (((lowest < 0) | (highest >= 1)).any()) list_movers(block, share.left);
     });
   }
 
@@ -233,91 +259,69 @@ class LaneKernel final : public Kernel {
   [[gnu::noinline]] void list_movers(const Block& block, std::vector<Address>& list) const {
     for (int lane = 0; lane < width; ++lane)
       for (int k = 0; k < block.count[lane]; ++k) {
+        const Slot& slot = cells_.slots(block)[static_cast<std::size_t>(k)];
         bool stays = true;
-        for (int c : {0, 1}) {
-          const double s = cells_.slots(block)[static_cast<std::size_t>(k)].x[c][lane] * basis_.inverse_h[c] -
-                           block.cell[c][lane];
-          stays &= s >= 0 && s < 1;
-        }
+        for (const Lanes& s : slot.s) stays &= s[lane] >= 0 && s[lane] < 1;
         if (!stays) list.push_back({block.first_node / width, lane, k});
       }
   }
 
-  /// Sums what the particles of a part give to nodes, those of their cells: give(block) returns what adds a
-  /// slot's share to its cells' sums, (number of the slot, slot, weights, sums).
-  template <class Sums, Fetch fetch, class Give>
+  /// Sums what the particles of a part give to nodes, those of their cells: give(block, sums) adds the share
+  /// of a block's particles to the sums of its cells.
+  template <class Sums, class Give>
   [[gnu::flatten]] void scatter(const Part& part, const std::array<double*, Sums::fields>& nodes,
                                 Give&& give) {
-    for (double* node : nodes)
-      std::fill(node + part.fresh.begin * cells_.stride(), node + part.fresh.end * cells_.stride(), 0.0);
-    TileSums<Basis, Sums> tile_sums;
-    const int end = cells_.first_of_row(part.cells.end);
-    for (int first = cells_.first_of_row(part.cells.begin); first < end; first += tile) {
-      const int cells = std::min(tile, end - first);
-      for (int cell = 0; cell < cells; cell += width) {
-        const Block& block = cells_.block(first + cell);
-        Sums sums;
-        each_slot<fetch>(block, part, [&, add = give(block)](int k, Slot& p, const CellWeights<Basis>& n_p) {
-          add(k, p, n_p, sums);
-        });
-        tile_sums.put(basis_, cell, sums);
-      }
-      tile_sums.add_to(nodes, basis_, first, cells);
+    for (double* node : nodes) fields_.clear(node, part.fresh);
+    NodeSums<Basis, Sums> node_sums(basis_, nodes);
+    for (const Block& block : cells_.blocks(part.cells)) {
+      Sums sums;
+      give(block, sums);
+      node_sums.add(block.first_node, sums);
     }
-    for (double* node : nodes) join_images(node, part.complete);
+    node_sums.finish();
+    for (double* node : nodes) fields_.join_images(node, part.complete);
   }
 
   /// f(block) for the cells of some rows.
   template <class F>
   [[gnu::flatten]] void each_block(Rows rows, F&& f) {
-    const int end = cells_.first_of_row(rows.end);
-    for (int cell = cells_.first_of_row(rows.begin); cell < end; cell += width) f(cells_.block(cell));
+    for (const Block& block : cells_.blocks(rows)) f(block);
   }
 
-  /// f(number, slot, weights) for the slots of a block. Meanwhile `fetch` of each slot of the block that lies
-  /// part.ahead cells on is brought into the cache.
-  template <Fetch fetch, class F>
-  void each_slot(const Block& block, const Part& part, F&& f) {
-    constexpr std::size_t sixth = sizeof(Slot) / 6, end = (fetch.first + fetch.sixths) * sixth;
-    const CellFrame<Basis> cells(basis_, block);
-    const bool fetches = fetch.sixths > 0 && part.ahead > 0;
-    const char* ahead =
-        reinterpret_cast<const char*>(fetches ? cells_.address_of(block.first_node + part.ahead) : nullptr);
-    for (int k = 0; Slot & p : cells_.slots(block)) {
-      if (ahead) {
-        for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
-          __builtin_prefetch(ahead + byte, 0, 2);
-        ahead += sizeof(Slot);
-      }
-      f(k++, p, CellWeights<Basis>(cells, p.x));
-    }
-  }
-
-  /// f(i, count) for the nodes i to i + count - 1, until those of all the rows are done; count is `width`, a
-  /// constant, but at the end.
+  /// f(number, slot, weights) for the slots of a block.
   template <class F>
-  void each_node(Rows rows, F&& f) {
-    const int end = rows.end * cells_.stride();
-    int i = rows.begin * cells_.stride();
-    for (; i + width <= end; i += width) f(i, std::integral_constant<int, width>());
-    if (i < end) f(i, end - i);
+  void each_slot(const Block& block, F&& f) {
+    for (int k = 0; Slot & p : cells_.slots(block)) f(k++, p, weights(block, p));
   }
 
-  /// Adds up the shares of periodic nodes and their images, and gives all of them the sum. Images across the
-  /// lanes are complete when their nodes are.
-  void join_images(double* node, Rows rows) const {
-    const int stride = cells_.stride(), along = count_[0], across = periodic_[1] ? count_[1] : rows_;
-    for (int row = rows.begin; row < std::min(rows.end, across); ++row) {
-      double* const here = node + row * stride;
-      for (int image = row + across; image < rows_; image += across)
-        for (int i = 0; i < stride; ++i) here[i] += node[image * stride + i];
-      if (periodic_[0]) {
-        for (int k = along; k < stride; ++k) here[k % along] += here[k];
-        for (int k = along; k < stride; ++k) here[k] = here[k % along];
-      }
-      for (int image = row + across; image < rows_; image += across)
-        std::copy_n(here, stride, node + image * stride);
+  /// `first` of every slot, and `second`. The weights of the bilinear basis are nothing but places in the
+  /// cell: two short loops keep all that they need in registers, and what ends one slot does not hold up the
+  /// next. Other weights are worth keeping.
+  template <class First, class Second>
+  void each_slot(const Block& block, First&& first, Second&& second) {
+    if constexpr (Basis::is_bilinear) {
+      each_slot(block, first);
+      each_slot(block, second);
+    } else {
+      each_slot(block, [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
+        first(k, p, n_p);
+        second(k, p, n_p);
+      });
     }
+  }
+
+  [[nodiscard]] CellWeights<Basis> weights(const Block& block, const Slot& p) const {
+    return {basis_, block, p.s};
+  }
+
+  /// Brings `fetch` of the slots of the block that lies part.ahead cells on into the cache.
+  template <Fetch fetch>
+  [[gnu::always_inline]] void fetch_ahead(const Block& block, const Part& part) const {
+    if (part.ahead == 0) return;
+    constexpr std::size_t sixth = sizeof(Slot) / 6, end = (fetch.first + fetch.sixths) * sixth;
+    for (const Slot& slot : cells_.slots_of_cell(block.first_node + part.ahead))
+      for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
+        __builtin_prefetch(reinterpret_cast<const char*>(&slot) + byte, 0, 2);
   }
 
   /// f(law, pressure) with the scene's own: which they are is asked once a pass, not once a particle.
@@ -335,14 +339,11 @@ class LaneKernel final : public Kernel {
 
   Cells cells_;
   Basis basis_;
-  bool periodic_[2];
-  int count_[2], rows_;
+  NodalFields fields_;
   Rheology rheology_;
   TaitPressure pressure_;
   bool has_pressure_;
-  std::vector<Found> found_;
-  std::size_t field_size_;    // from one field to the next
-  LargeArray<Lanes> fields_;  // one after another
+  std::vector<Share> shares_;
 };
 
 }  // namespace mpm::MPM_ISA

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "solver/kernel/cell_sums.hpp"
+
+namespace mpm::MPM_ISA {
+
+/// Lanes moved up by one; the last lane of `before` comes in at the bottom.
+inline Lanes moved_up(Lanes before, Lanes x) {
+  return [&]<int... lane>(std::integer_sequence<int, lane...>) {
+    return Lanes(__builtin_shufflevector(before.v, x.v, (width - 1 + lane)...));
+  }
+  (std::make_integer_sequence<int, width>{});
+}
+
+/// Adds what the particles of one block after another give to the nodes of their cells. Lane c of the k-th
+/// node along a row is node c + k of that row: instead of adding lanes to memory one by one, sums move up
+/// across the lanes, the last ones into the next block. Row by row with r_k the sums of the k-th node,
+///     r_0 + up(r_1 + up(r_2 + up(r_3))).
+template <class Basis, class Sums>
+class NodeSums {
+ public:
+  NodeSums(const Basis& basis, const std::array<double*, Sums::fields>& nodes)
+      : basis_(basis), nodes_(nodes) {}
+
+  void add(int first_node, const Sums& sums) {
+    add_sums(first_node, [&](int field, int i) { return sums.at(basis_, field, i); });
+  }
+
+  /// After the last block: what moves up from it.
+  void finish() {
+    for (int moved = 0; moved < Basis::degree; moved += width)
+      add_sums(next_, [](int, int) { return Lanes(0); });
+  }
+
+ private:
+  static constexpr int columns = Basis::support[0], rows = Basis::support[1];
+
+  template <class At>
+  [[gnu::always_inline]] void add_sums(int first_node, At&& at) {
+    next_ = first_node + width;
+    unroll<Sums::fields>([&](int f) {
+      unroll<rows>([&](int l) {
+        Lanes sum = at(f, l * columns + columns - 1);
+        unroll<columns - 1>([&](int step) {
+          Lanes& before = before_[f][l][step];
+          const Lanes up = moved_up(before, sum);
+          before = sum;
+          sum = at(f, l * columns + columns - 2 - step) + up;
+        });
+        double* const node = nodes_[static_cast<std::size_t>(f)] + first_node + l * basis_.stride;
+        store(node, load(node) + sum);
+      });
+    });
+  }
+
+  const Basis
+      basis_;  // a copy: stores to nodes might change what lies elsewhere, for all that a compiler knows
+  std::array<double*, Sums::fields> nodes_;
+  int next_ = 0;                                          ///< first node of the next block
+  Lanes before_[Sums::fields][rows][Basis::degree] = {};  ///< of the block before
+};
+
+}  // namespace mpm::MPM_ISA
