@@ -105,10 +105,10 @@ class Cells {
     return {slots_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
   }
 
-  /// Those of the block that begins with a cell; none beyond the last.
-  [[nodiscard]] std::span<const Slot> slots_of_cell(int cell) const {
-    if (cell >= count()) return {};
-    return slots(blocks_[static_cast<std::size_t>(cell / width)]);
+  /// Where to find the slots of the block that begins with a cell; nowhere beyond the last.
+  [[nodiscard]] const Slot* address_of(int cell) const {
+    return cell < count() ? slots_.data() + blocks_[static_cast<std::size_t>(cell / width)].first_slot
+                          : nullptr;
   }
 
   /// Puts particles that left their cell into the one where they are, around periodic sides. `movers` in the

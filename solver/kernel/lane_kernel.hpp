@@ -33,9 +33,10 @@ class LaneKernel final : public Kernel {
     double* const m_i = fields_.inverse_mass();
     const Pair v_i = fields_.velocity();
     scatter<MomentumSums<Basis, true>>(part, {m_i, v_i[0], v_i[1]}, [&](const Block& block, auto& sums) {
-      fetch_ahead<fetch_by_p2g>(block, part);
-      each_slot(block,
-                [&](int, const Slot& p, const CellWeights<Basis>& n_p) { sums.add(n_p, p.mass, p.v); });
+      if (part.ahead > 0) fields_.fetch(block.first_node + part.ahead);
+      each_slot<fetch_by_p2g>(block, part, [&](int, const Slot& p, const CellWeights<Basis>& n_p) {
+        sums.add(n_p, p.mass, p.v);
+      });
     });
     fields_.each_node(part.complete, [=](int i, auto count) {
       const Lanes m = load(m_i + i), one_over_m = select(m > 0, 1 / m, 0);
@@ -47,8 +48,9 @@ class LaneKernel final : public Kernel {
   void map_updated_velocity(const Part& part) override {
     const Pair v_i = fields_.mapped();
     scatter<MomentumSums<Basis, false>>(part, v_i, [&](const Block& block, auto& sums) {
-      each_slot(block,
-                [&](int, const Slot& p, const CellWeights<Basis>& n_p) { sums.add(n_p, p.mass, p.v); });
+      each_slot<no_fetch>(block, part, [&](int, const Slot& p, const CellWeights<Basis>& n_p) {
+        sums.add(n_p, p.mass, p.v);
+      });
     });
     fields_.each_node(part.complete, [=, one_over_m = fields_.inverse_mass()](int i, auto count) {
       for (double* v : v_i) store_first(count, v + i, load(v + i) * load(one_over_m + i));
@@ -60,19 +62,18 @@ class LaneKernel final : public Kernel {
     with_fluid([&](const auto& law, const auto& pressure) {
       each_block(part.cells, [&](const Block& block) {
         const auto stress = cells_.stresses(block).begin();
-        strain(block, part, v_i, dt, pressure,
-               [&](int k, const Slot&, const Strained& strained, const CellWeights<Basis>&) {
-                 stress[k] = stress_of(strained, law, pressure, 1);
-               });
+        strain<no_fetch>(block, part, v_i, dt, pressure,
+                         [&](int k, const Slot&, const Strained& strained, const CellWeights<Basis>&) {
+                           stress[k] = stress_of(strained, law, pressure, 1);
+                         });
       });
     });
   }
 
   void accelerate(const Part& part, const double b[2], double dt) override {
     scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
-      fetch_ahead<fetch_by_forces>(block, part);
       const auto stress = cells_.stresses(block).begin();
-      each_slot(block, [&](int k, const Slot& p, const CellWeights<Basis>& n_p) {
+      each_slot<fetch_by_forces>(block, part, [&](int k, const Slot& p, const CellWeights<Basis>& n_p) {
         sums.add(n_p, force_factor(p) * stress[k]);
       });
     });
@@ -82,11 +83,11 @@ class LaneKernel final : public Kernel {
   void update_stress_and_accelerate(const Part& part, const double b[2], double dt) override {
     with_fluid([&](const auto& law, const auto& pressure) {
       scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
-        fetch_ahead<fetch_by_forces>(block, part);
-        strain(block, part, fields_.velocity(), dt, pressure,
-               [&](int, const Slot& p, const Strained& strained, const CellWeights<Basis>& n_p) {
-                 sums.add(n_p, stress_of(strained, law, pressure, force_factor(p)));
-               });
+        strain<fetch_by_forces>(
+            block, part, fields_.velocity(), dt, pressure,
+            [&](int, const Slot& p, const Strained& strained, const CellWeights<Basis>& n_p) {
+              sums.add(n_p, stress_of(strained, law, pressure, force_factor(p)));
+            });
       });
     });
     accelerate_nodes(part.complete, b, dt);
@@ -129,7 +130,7 @@ class LaneKernel final : public Kernel {
   struct Fetch {
     std::size_t first, sixths;
   };
-  static constexpr Fetch fetch_by_p2g{0, 1}, fetch_by_forces{1, 3}, fetch_by_g2p{4, 2};
+  static constexpr Fetch no_fetch{0, 0}, fetch_by_p2g{0, 1}, fetch_by_forces{1, 3}, fetch_by_g2p{4, 2};
 
   /// Strain rate of a slot's particles [1/s]: du_0/dx_0, du_1/dx_1, du_0/dx_1 + du_1/dx_0; density [kg/m3],
   /// where it varies.
@@ -163,7 +164,7 @@ class LaneKernel final : public Kernel {
   }
 
   /// Strain rates from the nodal velocity, volumes V (1 + dt tr D), then visit(k, slot, strained, weights).
-  template <class Pressure, class Visit>
+  template <Fetch fetch, class Pressure, class Visit>
   void strain(const Block& block, const Part& part, const Pair& v_i, double dt, const Pressure&,
               Visit&& visit) {
     Share& share = shares_[static_cast<std::size_t>(part.share)];
@@ -180,8 +181,9 @@ class LaneKernel final : public Kernel {
         least_volume = least(least_volume, p.volume);
       }
     };
-    each_slot(block, strain_slot,
-              [&](int k, const Slot& p, const CellWeights<Basis>& n_p) { visit(k, p, strained[k], n_p); });
+    each_slot<fetch>(block, part, strain_slot, [&](int k, const Slot& p, const CellWeights<Basis>& n_p) {
+      visit(k, p, strained[k], n_p);
+    });
     share.least_volume = least(share.least_volume, least_volume);
   }
 
@@ -225,7 +227,6 @@ class LaneKernel final : public Kernel {
     Share& share = shares_[static_cast<std::size_t>(part.share)];
     const double cells_a_step[2] = {dt * basis_.inverse_h[0], dt * basis_.inverse_h[1]};
     each_block(part.cells, [&](const Block& block) {
-      if constexpr (taken != Take::Nothing) fetch_ahead<fetch_by_g2p>(block, part);
       const CellVelocity<Basis> v(basis_, block, fields_.velocity());
       const CellVelocity<Basis> a(basis_, block, fields_.acceleration());
       Lanes energy = 0, lowest = 0, highest = 0;
@@ -245,11 +246,11 @@ class LaneKernel final : public Kernel {
         }
       };
       if constexpr (taken == Take::Nothing)
-        each_slot(block, move);
+        each_slot<no_fetch>(block, part, move);
       else if constexpr (!moves)
-        each_slot(block, take);
+        each_slot<fetch_by_g2p>(block, part, take);
       else
-        each_slot(block, take, move);
+        each_slot<fetch_by_g2p>(block, part, take, move);
       share.energy += energy;
       if (((lowest < 0) | (highest >= 1)).any()) list_movers(block, share.left);
     });
@@ -288,40 +289,37 @@ class LaneKernel final : public Kernel {
     for (const Block& block : cells_.blocks(rows)) f(block);
   }
 
-  /// f(number, slot, weights) for the slots of a block.
-  template <class F>
-  void each_slot(const Block& block, F&& f) {
-    for (int k = 0; Slot & p : cells_.slots(block)) f(k++, p, weights(block, p));
+  /// f(number, slot, weights) for the slots of a block. Meanwhile `fetch` of each slot of the block that lies
+  /// part.ahead cells on is brought into the cache.
+  template <Fetch fetch, class F>
+  void each_slot(const Block& block, const Part& part, F&& f) {
+    constexpr std::size_t sixth = sizeof(Slot) / 6, end = (fetch.first + fetch.sixths) * sixth;
+    const bool fetches = fetch.sixths > 0 && part.ahead > 0;
+    auto ahead =
+        reinterpret_cast<const char*>(fetches ? cells_.address_of(block.first_node + part.ahead) : nullptr);
+    for (int k = 0; Slot & p : cells_.slots(block)) {
+      if (ahead) {
+        for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64) __builtin_prefetch(ahead + byte);
+        ahead += sizeof(Slot);
+      }
+      f(k++, p, CellWeights<Basis>(basis_, block, p.s));
+    }
   }
 
   /// `first` of every slot, and `second`. The weights of the bilinear basis are nothing but places in the
   /// cell: two short loops keep all that they need in registers, and what ends one slot does not hold up the
   /// next. Other weights are worth keeping.
-  template <class First, class Second>
-  void each_slot(const Block& block, First&& first, Second&& second) {
+  template <Fetch fetch, class First, class Second>
+  void each_slot(const Block& block, const Part& part, First&& first, Second&& second) {
     if constexpr (Basis::is_bilinear) {
-      each_slot(block, first);
-      each_slot(block, second);
+      each_slot<fetch>(block, part, first);
+      each_slot<no_fetch>(block, part, second);
     } else {
-      each_slot(block, [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
+      each_slot<fetch>(block, part, [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
         first(k, p, n_p);
         second(k, p, n_p);
       });
     }
-  }
-
-  [[nodiscard]] CellWeights<Basis> weights(const Block& block, const Slot& p) const {
-    return {basis_, block, p.s};
-  }
-
-  /// Brings `fetch` of the slots of the block that lies part.ahead cells on into the cache.
-  template <Fetch fetch>
-  [[gnu::always_inline]] void fetch_ahead(const Block& block, const Part& part) const {
-    if (part.ahead == 0) return;
-    constexpr std::size_t sixth = sizeof(Slot) / 6, end = (fetch.first + fetch.sixths) * sixth;
-    for (const Slot& slot : cells_.slots_of_cell(block.first_node + part.ahead))
-      for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
-        __builtin_prefetch(reinterpret_cast<const char*>(&slot) + byte, 0, 2);
   }
 
   /// f(law, pressure) with the scene's own: which they are is asked once a pass, not once a particle.

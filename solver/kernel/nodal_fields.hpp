@@ -32,6 +32,12 @@ class NodalFields {
   /// Force until a part is complete.
   [[nodiscard]] Pair acceleration() { return {field(5), field(6)}; }
 
+  /// Brings what every step uses of a node into the cache.
+  [[gnu::always_inline]] void fetch(int i) const {
+    const auto first = reinterpret_cast<const double*>(fields_.data()) + i;
+    for (std::size_t f : {0, 1, 2, 5, 6}) __builtin_prefetch(first + f * field_size_, 1);
+  }
+
   /// Sets rows of nodes to zero.
   void clear(double* node, Rows rows) const {
     std::fill(node + rows.begin * stride_, node + rows.end * stride_, 0.0);
