@@ -90,6 +90,10 @@ class Cells {
   [[nodiscard]] int count() const { return static_cast<int>(blocks_.size()) * width; }
   /// Of a block; the most there ever were.
   [[nodiscard]] std::size_t most_slots() const { return most_slots_; }
+  /// Slots of a cell in the store, on average.
+  [[nodiscard]] std::ptrdiff_t bytes_a_cell() const {
+    return static_cast<std::ptrdiff_t>(end_ * sizeof(Slot)) / count();
+  }
   /// The blocks that begin in some rows.
   [[nodiscard]] std::span<const Block> blocks(Rows rows) const {
     const std::size_t begin = first_of_row(rows.begin);
@@ -103,12 +107,6 @@ class Cells {
   }
   [[nodiscard]] std::span<const Slot> slots(const Block& block) const {
     return {slots_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
-  }
-
-  /// Where to find the slots of the block that begins with a cell; nowhere beyond the last.
-  [[nodiscard]] const Slot* address_of(int cell) const {
-    return cell < count() ? slots_.data() + blocks_[static_cast<std::size_t>(cell / width)].first_slot
-                          : nullptr;
   }
 
   /// Puts particles that left their cell into the one where they are, around periodic sides. `movers` in the

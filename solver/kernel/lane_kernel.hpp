@@ -34,7 +34,7 @@ class LaneKernel final : public Kernel {
     const Pair v_i = fields_.velocity();
     scatter<MomentumSums<Basis, true>>(part, {m_i, v_i[0], v_i[1]}, [&](const Block& block, auto& sums) {
       if (part.ahead > 0) fields_.fetch(block.first_node + part.ahead);
-      each_slot<fetch_by_p2g>(block, part, [&](int, const Slot& p, const CellWeights<Basis>& n_p) {
+      each_slot<no_fetch>(block, part, [&](int, const Slot& p, const CellWeights<Basis>& n_p) {
         sums.add(n_p, p.mass, p.v);
       });
     });
@@ -125,12 +125,12 @@ class LaneKernel final : public Kernel {
  private:
   using Pair = NodalFields::Pair;
 
-  /// Part of a slot, in sixths of its size. The passes of a step share a slot out as they share out its time,
-  /// so that memory is busy all along.
+  /// Part of a slot, in sixths of its size. The passes of a step share out what has to come from memory as
+  /// they share out its time, so that memory is busy all along: the first fetches nodes, the others slots.
   struct Fetch {
     std::size_t first, sixths;
   };
-  static constexpr Fetch no_fetch{0, 0}, fetch_by_p2g{0, 1}, fetch_by_forces{1, 3}, fetch_by_g2p{4, 2};
+  static constexpr Fetch no_fetch{0, 0}, fetch_by_forces{0, 4}, fetch_by_g2p{4, 2};
 
   /// Strain rate of a slot's particles [1/s]: du_0/dx_0, du_1/dx_1, du_0/dx_1 + du_1/dx_0; density [kg/m3],
   /// where it varies.
@@ -146,6 +146,7 @@ class LaneKernel final : public Kernel {
   };
 
   void make_room() {
+    bytes_a_cell_ = cells_.bytes_a_cell();
     for (Share& share : shares_) share.strained.resize(cells_.most_slots());
   }
 
@@ -289,19 +290,16 @@ class LaneKernel final : public Kernel {
     for (const Block& block : cells_.blocks(rows)) f(block);
   }
 
-  /// f(number, slot, weights) for the slots of a block. Meanwhile `fetch` of each slot of the block that lies
-  /// part.ahead cells on is brought into the cache.
+  /// f(number, slot, weights) for the slots of a block. Meanwhile `fetch` of what is stored part.ahead cells
+  /// on is brought into the cache.
   template <Fetch fetch, class F>
   void each_slot(const Block& block, const Part& part, F&& f) {
     constexpr std::size_t sixth = sizeof(Slot) / 6, end = (fetch.first + fetch.sixths) * sixth;
-    const bool fetches = fetch.sixths > 0 && part.ahead > 0;
-    auto ahead =
-        reinterpret_cast<const char*>(fetches ? cells_.address_of(block.first_node + part.ahead) : nullptr);
+    const std::ptrdiff_t ahead = part.ahead * bytes_a_cell_;
     for (int k = 0; Slot & p : cells_.slots(block)) {
-      if (ahead) {
-        for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64) __builtin_prefetch(ahead + byte);
-        ahead += sizeof(Slot);
-      }
+      if (fetch.sixths > 0 && ahead > 0)
+        for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
+          __builtin_prefetch(reinterpret_cast<const char*>(&p) + ahead + byte);
       f(k++, p, CellWeights<Basis>(basis_, block, p.s));
     }
   }
@@ -342,6 +340,7 @@ class LaneKernel final : public Kernel {
   TaitPressure pressure_;
   bool has_pressure_;
   std::vector<Share> shares_;
+  std::ptrdiff_t bytes_a_cell_ = 0;  // of slots
 };
 
 }  // namespace mpm::MPM_ISA
