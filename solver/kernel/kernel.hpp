@@ -55,7 +55,7 @@ struct Part {
 
 /// What the particles' move found.
 struct Motion {
-  double energy = 0;  ///< twice the kinetic energy [J/m]: not finite when a velocity is not
+  double velocity = 0;  ///< sum of all components [m/s]: not finite when one is not
   bool inside = true, dense = true;
 };
 

@@ -18,8 +18,8 @@ inline double operations_per_particle_step() {
 
 /// Bytes a particle and step that a sweep of the kernel must move when no cache holds particles and nodes
 /// from one step to the next, four particles a node:
-///   a particle's x, v, m, V are read, x, v, V written            6 + 5
-///   a node's 1/m, v, a are fetched and written, a quarter of     5 + 5
-constexpr double bytes_per_particle_step = 8 * (6 + 5 + (5 + 5) / 4.0);
+///   a particle's place, v, m, V are read and, as whole cache lines, written   6 + 6
+///   a node's 1/m, v, a are fetched and written, a quarter of                  5 + 5
+constexpr double bytes_per_particle_step = 8 * (6 + 6 + (5 + 5) / 4.0);
 
 }  // namespace bench
