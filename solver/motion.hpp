@@ -20,14 +20,14 @@ Motion move_particles(const Grid& grid, Particles& particles, double dt, const V
     x_p += dt * velocity(p);
     motion.inside &= grid.x.contain(x_p.x()) && grid.y.contain(x_p.y());
     motion.dense &= particles.density[p] > 0;
-    motion.velocity += particles.velocity[p].sum();
+    motion.energy += particles.velocity[p].squaredNorm();
   }
   return motion;
 }
 
 /// Why a simulation ends after such a motion; none while it may go on.
 inline std::optional<std::string> breakdown_of(const Motion& motion) {
-  if (!std::isfinite(motion.velocity)) return "velocity is not finite";
+  if (!std::isfinite(motion.energy)) return "velocity is not finite";
   if (!motion.inside) return "a particle left the domain";
   if (!motion.dense) return "density is not positive";
   return std::nullopt;

@@ -55,7 +55,8 @@ struct Part {
 
 /// What the particles' move found.
 struct Motion {
-  double velocity = 0;  ///< sum of all components [m/s]: not finite when one is not
+  double energy =
+      0;  ///< sum of v^2 [m2/s2]: not finite when a velocity is not, or has grown beyond all bounds
   bool inside = true, dense = true;
 };
 

@@ -110,11 +110,11 @@ class LaneKernel final : public Kernel {
   Motion settle() override {
     Motion motion;
     for (Share& share : shares_) {
-      motion.velocity += sum(share.velocity);
+      motion.energy += sum(share.energy);
       motion.dense &= !(share.least_volume < 0).any();
       motion.inside &= cells_.rehouse(share.left);
       share.left.clear();
-      share.velocity = share.least_volume = 0;
+      share.energy = share.least_volume = 0;
     }
     make_room();
     return motion;
@@ -140,9 +140,9 @@ class LaneKernel final : public Kernel {
 
   /// What belongs to a share of the cells alone, so that threads need not agree.
   struct alignas(64) Share {
-    Lanes velocity = 0, least_volume = 0;  // that its particles were found to have
-    std::vector<Address> left;             // particles no longer in their cells
-    std::vector<Strained> strained;        // of one block at a time
+    Lanes energy = 0, least_volume = 0;  // that its particles were found to have
+    std::vector<Address> left;           // particles no longer in their cells
+    std::vector<Strained> strained;      // of one block at a time
   };
 
   void make_room() {
@@ -230,14 +230,14 @@ class LaneKernel final : public Kernel {
     each_block(part.cells, [&](const Block& block) {
       const CellVelocity<Basis> v(basis_, block, fields_.velocity());
       const CellVelocity<Basis> a(basis_, block, fields_.acceleration());
-      Lanes velocity = 0, lowest = 0, highest = 0;
+      Lanes energy = 0, lowest = 0, highest = 0;
       const auto take = [&](int, Slot& p, const CellWeights<Basis>& n_p) {
         for (int c : {0, 1}) {
           if constexpr (taken == Take::Flip) p.v[c] += dt * a[c].at(n_p);
           if constexpr (taken == Take::Blend)
             p.v[c] = flip * (p.v[c] + dt * a[c].at(n_p)) + (1 - flip) * v[c].at(n_p);
         }
-        velocity += p.v[0] + p.v[1];
+        energy += p.v[0] * p.v[0] + p.v[1] * p.v[1];
       };
       const auto move = [&](int, Slot& p, const CellWeights<Basis>& n_p) {
         for (int c : {0, 1}) {
@@ -252,7 +252,7 @@ class LaneKernel final : public Kernel {
         each_slot<fetch_by_g2p>(block, part, take);
       else
         each_slot<fetch_by_g2p>(block, part, take, move);
-      share.velocity += velocity;
+      share.energy += energy;
       if (((lowest < 0) | (highest >= 1)).any()) list_movers(block, share.left);
     });
   }
