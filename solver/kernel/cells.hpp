@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -139,14 +140,11 @@ class Cells {
       for (int lane = 0; lane < width; ++lane)
         for (int k = 0; k < block.count[lane]; ++k) {
           const int number = block.first_node + lane;
-          const auto position = [&](const LineOfCells& axis, int cell, double s) {
-            return std::min((cell + s) / axis.inverse_h, axis.length);
-          };
           const std::size_t at = block.first_slot + static_cast<std::size_t>(k);
           const Slot& slot = slots_[at];
           const Stress& stress = stresses_[at];
-          points[names_[at].of[lane]] = {{position(axis_[0], number % stride_, slot.s[0][lane]),
-                                          position(axis_[1], number / stride_, slot.s[1][lane])},
+          points[names_[at].of[lane]] = {{coordinate(axis_[0], number % stride_, slot.s[0][lane]),
+                                          coordinate(axis_[1], number / stride_, slot.s[1][lane])},
                                          {slot.v[0][lane], slot.v[1][lane]},
                                          slot.mass[lane],
                                          slot.mass[lane] / slot.volume[lane],
@@ -177,10 +175,18 @@ class Cells {
     return place;
   }
 
+  /// [m]; rounding takes no point inside beyond the end.
+  static double coordinate(const LineOfCells& axis, int cell, double s) {
+    const double x = (cell + s) / axis.inverse_h;
+    return s <= 1 ? std::min(x, axis.length) : x;
+  }
+
   /// As Axis::contain, in cells: takes what s has beyond 0 to 1 to the number of the cell. A point on the far
-  /// end belongs to the last cell.
+  /// end belongs to the last cell. Whoever crosses more cells in a step than have numbers is nowhere.
   static bool contain(const LineOfCells& axis, int& cell, double& s) {
+    constexpr double most = std::numeric_limits<int>::max();
     const double steps = std::floor(s), end = axis.cells;
+    if (!(std::abs(steps) < most)) return false;  // nor is what is not finite
     double number = cell + steps;
     if (axis.periodic) number -= end * std::floor(number / end);
     s -= steps;
@@ -188,8 +194,9 @@ class Cells {
       number = end - 1;
       s = 1;
     }
-    cell = number >= 0 && number < end ? static_cast<int>(number) : -1;  // so is what is not finite
-    return cell >= 0 && s >= 0 && s <= 1;
+    if (!(number >= 0 && number < end)) return false;
+    cell = static_cast<int>(number);
+    return true;
   }
 
   Block& block_at(const Address& at) { return blocks_[static_cast<std::size_t>(at.block)]; }
