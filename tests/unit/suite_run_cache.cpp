@@ -216,6 +216,22 @@ TEST_CASE("runs are taken longest first, timed ones alone at the end") {
   CHECK(std::isnan(run_simulation(studies[1], studies[1].runs.front()).timing.spread));
 }
 
+TEST_CASE("a reference that takes long is computed once, before all runs") {
+  const ScratchDirectory scratch;
+  const std::string cross = with("[fluid]", "[fluid]\nmodel = \"cross\"\ninfinite_viscosity_ratio = 2.0\ntime_constant = 1.0");
+  std::vector<Study> studies;
+  studies.push_back(study_of(scratch, "newtonian", tiny));
+  studies.push_back(study_of(scratch, "timed", "repetitions = 3\n" + cross));
+  studies.push_back(study_of(scratch, "same", cross));
+  const Schedule order = schedule(studies);
+  REQUIRE(order.shared.size() == 3);
+  CHECK(order.shared[0].kind == Job::Kind::Reference);
+  CHECK(order.shared[0].study == 1);
+  for (std::size_t k : {1, 2}) CHECK(order.shared[k].kind == Job::Kind::Run);
+  REQUIRE(order.alone.size() == 1);
+  CHECK(order.alone[0].study == 1);
+}
+
 TEST_CASE("the first exception stops the jobs, whatever the threads") {
   std::vector<Job> jobs(100, Job{0, 0, 1});
   std::atomic<int> performed{0};

@@ -115,9 +115,17 @@ mpm::Scene ChannelFlow::scene(const Discretisation& d) const {
 }
 
 std::shared_ptr<const ExactField> ChannelFlow::exact(const std::vector<double>& times) const {
-  return std::make_shared<ContinuousChannel>(
-      parameters_.axis, channel_solution({parameters_.height, parameters_.body_acceleration,
-                                          parameters_.plate_velocity, parameters_.fluid.curve, times}));
+  return std::make_shared<ContinuousChannel>(parameters_.axis, channel_solution(problem(times)));
+}
+
+std::optional<std::string> ChannelFlow::costly_reference(const std::vector<double>& times) const {
+  if (parameters_.fluid.curve.newtonian()) return std::nullopt;  // a series
+  return problem(times).describe();
+}
+
+reference::ChannelProblem ChannelFlow::problem(const std::vector<double>& times) const {
+  return {parameters_.height, parameters_.body_acceleration, parameters_.plate_velocity,
+          parameters_.fluid.curve, times};
 }
 
 std::shared_ptr<const ExactField> ChannelFlow::exact_discrete(const Discretisation& d, double dt) const {

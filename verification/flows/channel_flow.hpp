@@ -24,6 +24,7 @@ class ChannelFlow final : public Flow {
 
   [[nodiscard]] mpm::Scene scene(const Discretisation& discretisation) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const override;
+  [[nodiscard]] std::optional<std::string> costly_reference(const std::vector<double>& times) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> exact_discrete(const Discretisation& discretisation,
                                                                  double dt) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> steady_nodes(
@@ -37,6 +38,8 @@ class ChannelFlow final : public Flow {
   [[nodiscard]] double bias_unit(double cell_size) const override;
 
  private:
+  [[nodiscard]] reference::ChannelProblem problem(const std::vector<double>& times) const;
+
   ChannelParameters parameters_;
   double steady_maximum_, steady_mid_height_;  // [m/s]
 };

@@ -77,6 +77,13 @@ class Flow {
   /// null where none is known. May take seconds to compute, once a process.
   [[nodiscard]] virtual std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const = 0;
 
+  /// Name of the reference that exact() has to compute for these times, where that takes long: whoever asks
+  /// for one of the same name finds it done. None where exact() is at hand.
+  [[nodiscard]] virtual std::optional<std::string> costly_reference(const std::vector<double>& times) const {
+    static_cast<void>(times);
+    return std::nullopt;
+  }
+
   /// The exact solution of the Newtonian USF linear FLIP scheme itself, for steps of dt [s]; null where none
   /// is known.
   [[nodiscard]] virtual std::shared_ptr<const ExactField> exact_discrete(const Discretisation&,

@@ -65,7 +65,16 @@ class SuiteRunner {
     reports::ensure_directory(out_ / "scenes");
     reports::remove_tables(out_);
     const Schedule jobs = schedule(studies_);
-    const auto perform_job = [this](const Job& job) { job.measures_limit ? measure(job) : perform(job); };
+    const auto perform_job = [this](const Job& job) {
+      switch (job.kind) {
+        case Job::Kind::Reference:
+          return prepare(job);
+        case Job::Kind::Limit:
+          return measure(job);
+        default:
+          return perform(job);
+      }
+    };
     std::exception_ptr stopped = perform_all(jobs.shared, threads, perform_job);
     if (!stopped) stopped = perform_all(jobs.alone, 1, perform_job);
 
@@ -85,6 +94,19 @@ class SuiteRunner {
   }
 
  private:
+  /// Computes the reference of a run that has to be done.
+  void prepare(const Job& job) {
+    throw_if_interrupted();
+    const Study& study = studies_[job.study];
+    const PlannedRun& plan = study.runs[job.run];
+    if (cache_.load(study, plan)) return;
+    try {
+      plan.scene.flow->exact(plan.scene.reference_times());
+    } catch (const std::exception&) {
+      // The runs that need it will say so, each under its name.
+    }
+  }
+
   void perform(const Job& job) {
     throw_if_interrupted();
     const Study& study = studies_[job.study];

@@ -2,20 +2,32 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
+#include <set>
+#include <string>
 #include <thread>
+
+#include "verification/study/run_simulation.hpp"
 
 namespace verification {
 
 Schedule schedule(const std::vector<Study>& studies) {
   Schedule schedule;
+  std::set<std::string> references;
   for (std::size_t s = 0; s < studies.size(); ++s)
-    for (std::size_t r = 0; r < studies[s].runs.size(); ++r)
+    for (std::size_t r = 0; r < studies[s].runs.size(); ++r) {
+      const SceneConfig& scene = studies[s].runs[r].scene;
       (studies[s].repetitions > 0 ? schedule.alone : schedule.shared)
-          .push_back({s, r, studies[s].runs[r].scene.particle_steps()});
+          .push_back({s, r, scene.particle_steps()});
+      const auto reference = costly_reference(studies[s], scene);
+      if (reference && references.insert(*reference).second)
+        schedule.shared.push_back({s, r, std::numeric_limits<double>::infinity(), Job::Kind::Reference});
+    }
   for (std::size_t s = 0; s < studies.size(); ++s)
     for (std::size_t c = 0; c < studies[s].stability.cases.size(); ++c)
-      schedule.shared.push_back({s, c, studies[s].stability.cost(studies[s].stability.cases[c]), true});
+      schedule.shared.push_back(
+          {s, c, studies[s].stability.cost(studies[s].stability.cases[c]), Job::Kind::Limit});
   std::ranges::stable_sort(schedule.shared, std::ranges::greater{}, &Job::cost);
   return schedule;
 }

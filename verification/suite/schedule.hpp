@@ -9,17 +9,22 @@
 
 namespace verification {
 
-/// One piece of a suite's work: run `run` of study `study`, or case `run` of its [stability].
+/// One piece of a suite's work: run `run` of study `study`, case `run` of its [stability], or the reference
+/// that a run needs.
 struct Job {
+  enum class Kind { Run, Limit, Reference };
+
   std::size_t study, run;
   double cost;  ///< estimated, in arbitrary units
-  bool measures_limit = false;
+  Kind kind = Kind::Run;
 };
 
 /// Jobs in the order in which they are taken.
 struct Schedule {
-  std::vector<Job> shared;  ///< on all threads, longest first, so that no long one is left for the end
-  std::vector<Job> alone;   ///< after those, one at a time: runs whose time is to be measured
+  /// On all threads. References that take long, each once, so that no run has to wait for one; then the
+  /// longest first, so that no long one is left for the end.
+  std::vector<Job> shared;
+  std::vector<Job> alone;  ///< after those, one at a time: runs whose time is to be measured
 };
 Schedule schedule(const std::vector<Study>& studies);
 
