@@ -30,12 +30,12 @@ class LaneSolver final : public Simulation {
       : scene_(scene),
         stepping_(stepping),
         flip_fraction_(flip_fraction),
-        grid_(scene, Basis::degree),
-        layout_(scene, grid_, Basis::degree),
+        grid_(scene_, Basis::degree),
+        layout_(scene_, grid_, Basis::degree),
         team_(threads),
         sweep_(layout_.lines(), stepping == Scheme::Stepping::Musl ? 4 : 3),
-        wall_nodes_(scene, grid_),
-        walls_(scene, grid_, wall_nodes_, layout_, sweep_.shares()),
+        wall_nodes_(scene_, grid_),
+        walls_(scene_, grid_, wall_nodes_, layout_, sweep_.shares()),
         particles_(started_particles()),
         kernel_(started_kernel()),
         nodes_(kernel_->nodes()) {
@@ -242,7 +242,7 @@ class LaneSolver final : public Simulation {
     is_stale_ = false;
   }
 
-  const Scene& scene_;
+  const Scene scene_;  // its own: whoever made it may be gone
   Scheme::Stepping stepping_;
   double flip_fraction_;
   Grid grid_;  // geometry alone

@@ -26,13 +26,13 @@ class Solver final : public Simulation {
         stepping_(scheme.stepping),
         transfer_(transfer),
         particles_(seed_particles(scene)),
-        grid_(scene, Basis::degree),
-        walls_(scene, grid_),
+        grid_(scene_, Basis::degree),
+        walls_(scene_, grid_),
         mass_(grid_, walls_),
         update_stress_(make_stress_update<Basis>(scene.fluid)) {
     if (stepping_ == Scheme::Stepping::ImplicitEuler || stepping_ == Scheme::Stepping::ImplicitSdirk2)
       implicit_viscosity_ = make_implicit_viscosity(scene.fluid.rheology, grid_, walls_);
-    if (scheme.resets()) reset_.emplace(scene, scheme, grid_, walls_);
+    if (scheme.resets()) reset_.emplace(scene_, scheme, grid_, walls_);
     start();
     (*update_stress_)(particles_, grid_, grid_.velocity, 0);
   }
@@ -332,7 +332,7 @@ class Solver final : public Simulation {
     if (!breakdown_) breakdown_ = breakdown_of(motion);
   }
 
-  const Scene& scene_;
+  const Scene scene_;  // its own: whoever made it may be gone
   Scheme::Stepping stepping_;
   Transfer transfer_;
   Particles particles_;
