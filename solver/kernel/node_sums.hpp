@@ -26,8 +26,9 @@ class NodeSums {
     add_sums(first_node, [&](int field, int i) { return sums.at(basis_, field, i); });
   }
 
-  /// After the last block: what moves up from it.
+  /// After the last block, if there was one: what moves up from it.
   void finish() {
+    if (next_ < 0) return;
     for (int moved = 0; moved < Basis::degree; moved += width)
       add_sums(next_, [](int, int) { return Lanes(0); });
   }
@@ -53,10 +54,10 @@ class NodeSums {
     });
   }
 
-  const Basis
-      basis_;  // a copy: stores to nodes might change what lies elsewhere, for all that a compiler knows
+  // A copy: for all that a compiler knows, stores to nodes might change what lies elsewhere.
+  const Basis basis_;
   std::array<double*, Sums::fields> nodes_;
-  int next_ = 0;                                          ///< first node of the next block
+  int next_ = -1;                                         ///< first node of the next block
   Lanes before_[Sums::fields][rows][Basis::degree] = {};  ///< of the block before
 };
 
