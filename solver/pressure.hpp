@@ -20,7 +20,7 @@ struct TaitPressure {
   template <class Real>
   requires(!std::is_integral_v<Real>) [[nodiscard]] Real pressure(const Real& density) const {
     const Real r = density * inverse_reference_density;
-    const Real r2 = r * r;
+    const Real r2 = r * r;  // r^7 as two factors, neither of which waits for the other
     return (bulk_modulus * r * r2) * (r2 * r2) - bulk_modulus;
   }
   /// The density at which the pressure is P [kg/m3]; P > -K.

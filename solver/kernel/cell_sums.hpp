@@ -4,7 +4,7 @@
 
 namespace mpm::MPM_ISA {
 
-/// Transpose of CellField::value: what the particles of a block bring to the nodes of their cells of
+/// Transpose of CellField: what the particles of a block bring to the nodes of their cells of
 /// momentum, sum_p N_ip m_p v_p, and before it, if asked for, of mass, sum_p N_ip m_p.
 template <class Basis, bool with_mass>
 class MomentumSums {

@@ -91,7 +91,7 @@ class Cells {
   [[nodiscard]] int count() const { return static_cast<int>(blocks_.size()) * width; }
   /// Of a block; the most there ever were.
   [[nodiscard]] std::size_t most_slots() const { return most_slots_; }
-  /// Slots of a cell in the store, on average.
+  /// What a cell's slots take in the store [B], on average.
   [[nodiscard]] std::ptrdiff_t bytes_a_cell() const {
     return static_cast<std::ptrdiff_t>(end_ * sizeof(Slot)) / count();
   }

@@ -55,8 +55,8 @@ struct Part {
 
 /// What the particles' move found.
 struct Motion {
-  double energy =
-      0;  ///< sum of v^2 [m2/s2]: not finite when a velocity is not, or has grown beyond all bounds
+  /// Sum of v^2 [m2/s2]: not finite when a velocity is not, or is so large that its square is not.
+  double energy = 0;
   bool inside = true, dense = true;
 };
 

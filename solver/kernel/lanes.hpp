@@ -106,13 +106,6 @@ inline void store(double* to, Lanes x) {
   std::memcpy(to, &x.v, sizeof x.v);
 }
 
-inline Lanes to_lanes(const int (&from)[width]) {
-  typedef int Ints __attribute__((vector_size(MPM_LANES * sizeof(int))));
-  Ints ints;
-  std::memcpy(&ints, from, sizeof ints);
-  return __builtin_convertvector(ints, Vector);
-}
-
 /// The first `count` of them.
 template <class Count>
 inline void store_first(Count count, double* to, Lanes x) {

@@ -25,17 +25,18 @@ class NodalFields {
   }
 
   /// 1/m_i; mass until a part is complete; zero where there is none.
-  [[nodiscard]] double* inverse_mass() { return field(0); }
-  [[nodiscard]] Pair velocity() { return {field(1), field(2)}; }
+  [[nodiscard]] double* inverse_mass() { return field(first_mass); }
+  [[nodiscard]] Pair velocity() { return {field(first_velocity), field(first_velocity + 1)}; }
   /// Of updated particles that have not moved yet.
-  [[nodiscard]] Pair mapped() { return {field(3), field(4)}; }
+  [[nodiscard]] Pair mapped() { return {field(first_mapped), field(first_mapped + 1)}; }
   /// Force until a part is complete.
-  [[nodiscard]] Pair acceleration() { return {field(5), field(6)}; }
+  [[nodiscard]] Pair acceleration() { return {field(first_acceleration), field(first_acceleration + 1)}; }
 
   /// Brings what every step uses of a node into the cache.
   [[gnu::always_inline]] void fetch(int i) const {
     const auto first = reinterpret_cast<const double*>(fields_.data()) + i;
-    for (std::size_t f : {0, 1, 2, 5, 6}) __builtin_prefetch(first + f * field_size_, 1);
+    for (std::size_t f = 0; f < field_count; ++f)
+      if (f < first_mapped || f >= first_acceleration) __builtin_prefetch(first + f * field_size_, 1);
   }
 
   /// Sets rows of nodes to zero.
@@ -68,7 +69,8 @@ class NodalFields {
   }
 
  private:
-  static constexpr std::size_t field_count = 7;
+  static constexpr std::size_t first_mass = 0, first_velocity = 1, first_mapped = 3, first_acceleration = 5,
+                               field_count = 7;
 
   [[nodiscard]] double* field(std::size_t f) {
     return reinterpret_cast<double*>(fields_.data()) + f * field_size_;

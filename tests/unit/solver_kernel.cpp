@@ -261,6 +261,23 @@ TEST_CASE("the benchmark's plain loop gives the solver's answer") {
   agree(plain::PowerLaw{1e-3, 0.8, 1e-3}, PowerLaw{1e-3, 0.8, 1e-3, 0});
 }
 
+TEST_CASE("a part of a sweep without cells touches no node: it may be another thread's") {
+  const double polynomials[] = {1, 0, -1, 1, 1, 0, -1, 1};  // 1 - s and s in both cells, as Axis gives them
+  const PointState point{{0.5, 0.5}, {1, 1}, 1, 1, {1, 1, 1}};
+  const LineOfCells axis{2, false, 2, 1, polynomials};
+  const auto kernel = make_kernel({1, false, {axis, axis}, Newtonian{1}, true, {1, 1}, &point, 1, 1});
+  const NodeFields nodes = kernel->nodes();
+  // Adding nothing to it would turn it into +0.
+  double* const fields[] = {nodes.inverse_mass, nodes.velocity[0], nodes.mapped[0], nodes.acceleration[0]};
+  for (double* field : fields) field[0] = -0.0;
+  const double none[] = {0, 0};
+  kernel->map_velocity({});
+  kernel->map_updated_velocity({});
+  kernel->accelerate({}, none, 1);
+  kernel->update_stress_and_accelerate({}, none, 1);
+  for (const double* field : fields) CHECK(std::signbit(field[0]));
+}
+
 TEST_CASE("a simulation outlives the scene that it was made from") {
   for (const auto transfer : {Scheme::Transfer::Flip, Scheme::Transfer::Apic}) {  // vector kernels; general
     const Scheme scheme{Scheme::Basis::Linear, transfer, Scheme::Stepping::Usf};

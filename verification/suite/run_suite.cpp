@@ -94,7 +94,8 @@ class SuiteRunner {
   }
 
  private:
-  /// Computes the reference of a run that has to be done.
+  /// Computes the reference of a run, unless that is kept: then those that need the same are, as a rule, and
+  /// one that is not computes it for itself.
   void prepare(const Job& job) {
     throw_if_interrupted();
     const Study& study = studies_[job.study];
