@@ -18,9 +18,13 @@ void ChannelProblem::check() const {
           "channel: times must be finite and not negative");
 }
 
+std::string ChannelProblem::describe_flow() const {
+  return fmt::format("H={:.17g} F={:.17g} V0={:.17g} {}", height, body_acceleration, plate_velocity,
+                     curve.describe());
+}
+
 std::string ChannelProblem::describe() const {
-  std::string text = fmt::format("H={:.17g} F={:.17g} V0={:.17g} {} t=", height, body_acceleration,
-                                 plate_velocity, curve.describe());
+  std::string text = describe_flow() + " t=";
   for (const double t : times) text += fmt::format("{:.17g},", t);
   return text;
 }
@@ -35,6 +39,13 @@ double ChannelProblem::first_time() const {
 
 double ChannelProblem::last_time() const {
   return times.empty() ? 0.0 : *std::max_element(times.begin(), times.end());
+}
+
+double ChannelProblem::accurate_from() const {
+  const double first = first_time();
+  if (first == 0.0) return 0.0;
+  const double decade = std::pow(10.0, std::floor(std::log10(first)));
+  return decade <= first ? decade : 0.1 * decade;
 }
 
 }  // namespace reference

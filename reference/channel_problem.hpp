@@ -20,9 +20,14 @@ struct ChannelProblem {
   void check() const;
   /// Every parameter, 17 digits: equal texts mean equal problems.
   [[nodiscard]] std::string describe() const;
+  /// The same without the times.
+  [[nodiscard]] std::string describe_flow() const;
   /// Smallest positive and largest of the times; 0 if there is none.
   [[nodiscard]] double first_time() const;
   [[nodiscard]] double last_time() const;
+  /// The power of ten [s] at or below first_time, 0 if there is none: what a computed solution is accurate
+  /// from, so that problems that ask for neighbouring times share one.
+  [[nodiscard]] double accurate_from() const;
 };
 
 }  // namespace reference

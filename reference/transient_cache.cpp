@@ -14,7 +14,7 @@ namespace reference {
 namespace {
 
 // To be raised with any change that changes what a problem's solution is: mesh, start, error, layout.
-constexpr const char* kFormat = "mpm-verify transient reference, format 2\n";
+constexpr const char* kFormat = "mpm-verify transient reference, format 3\n";
 
 std::uint64_t fnv1a(const std::string& bytes) {
   std::uint64_t hash = 14695981039346656037u;
@@ -31,6 +31,16 @@ void put(std::string& bytes, const T& value) {
 
 void put(std::string& bytes, const std::vector<double>& values) {
   for (const double v : values) put(bytes, v);
+}
+
+void put(std::string& bytes, const std::vector<GradientHistory::Snapshot>& snapshots) {
+  put(bytes, static_cast<std::uint64_t>(snapshots.size()));
+  put(bytes, static_cast<std::uint64_t>(snapshots.empty() ? 0 : snapshots.front().w.size()));
+  for (const auto& snapshot : snapshots) {
+    put(bytes, snapshot.time);
+    put(bytes, snapshot.w);
+    put(bytes, snapshot.rate);
+  }
 }
 
 /// Reads values off a byte string; after the first that is not there, `good` is false.
@@ -53,6 +63,16 @@ class Reader {
     std::vector<double> values;
     for (std::size_t i = 0; good_ && i < count; ++i) values.push_back(get<double>());
     return values;
+  }
+  std::vector<GradientHistory::Snapshot> snapshots() {
+    const auto count = get<std::uint64_t>(), nodes = get<std::uint64_t>();
+    std::vector<GradientHistory::Snapshot> snapshots;
+    for (std::uint64_t i = 0; good_ && i < count; ++i) {
+      const auto time = get<double>();
+      std::vector<double> w = get(nodes), rate = get(nodes);
+      snapshots.push_back({time, std::move(w), std::move(rate)});
+    }
+    return snapshots;
   }
   [[nodiscard]] bool good() const { return good_; }
 
@@ -89,14 +109,8 @@ std::optional<StoredTransient> load_transient(const std::filesystem::path& direc
 
   Reader reader(body);
   StoredTransient stored;
-  stored.velocity_error = reader.get<double>();
-  stored.gradient_error = reader.get<double>();
-  const auto count = reader.get<std::uint64_t>(), nodes = reader.get<std::uint64_t>();
-  for (std::uint64_t i = 0; reader.good() && i < count; ++i) {
-    const auto time = reader.get<double>();
-    std::vector<double> w = reader.get(nodes), rate = reader.get(nodes);
-    stored.snapshots.push_back({time, std::move(w), std::move(rate)});
-  }
+  stored.fine = reader.snapshots();
+  stored.coarse = reader.snapshots();
   if (!reader.good()) return std::nullopt;
   return stored;
 }
@@ -105,15 +119,8 @@ void save_transient(const std::filesystem::path& directory, const std::string& k
                     const StoredTransient& stored) {
   if (directory.empty()) return;
   std::string body;
-  put(body, stored.velocity_error);
-  put(body, stored.gradient_error);
-  put(body, static_cast<std::uint64_t>(stored.snapshots.size()));
-  put(body, static_cast<std::uint64_t>(stored.snapshots.empty() ? 0 : stored.snapshots.front().w.size()));
-  for (const auto& snapshot : stored.snapshots) {
-    put(body, snapshot.time);
-    put(body, snapshot.w);
-    put(body, snapshot.rate);
-  }
+  put(body, stored.fine);
+  put(body, stored.coarse);
   std::error_code failed;
   std::filesystem::create_directories(directory, failed);
   const std::filesystem::path target = transient_file(directory, key);

@@ -9,10 +9,9 @@
 
 namespace reference {
 
-/// What a computed transient is remembered by.
+/// What a computed transient is remembered by: its history with either resolution.
 struct StoredTransient {
-  double velocity_error = 0.0, gradient_error = 0.0;
-  std::vector<GradientHistory::Snapshot> snapshots;
+  std::vector<GradientHistory::Snapshot> fine, coarse;
 };
 
 /// The solution stored under `key` in `directory`, if there is one that is whole: file name, key text, format

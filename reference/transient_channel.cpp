@@ -26,7 +26,16 @@ const ChannelProblem& checked(const ChannelProblem& problem) {
   return problem;
 }
 
+std::string describe(const TransientResolution& r) {
+  return fmt::format("degree={} tolerance={:g} smallest={:g} neglected={:g}", r.degree, r.tolerance,
+                     r.smallest, r.neglected);
+}
+
 }  // namespace
+
+std::string transient_name(const ChannelProblem& problem) {
+  return fmt::format("{} from={:.17g}", problem.describe_flow(), problem.accurate_from());
+}
 
 TransientChannel::TransientChannel(const ChannelProblem& problem,
                                    const std::filesystem::path& cache_directory)
@@ -35,22 +44,17 @@ TransientChannel::TransientChannel(const ChannelProblem& problem,
       steady_maximum_(
           SteadyChannel(problem.height, problem.body_acceleration, problem.plate_velocity, problem.curve)
               .maximum()) {
-  const TransientResolution fine = fine_resolution(problem);
-  const std::string key =
-      fmt::format("{} degree={} tolerance={:g} smallest={:g} neglected={:g}", problem.describe(), fine.degree,
-                  fine.tolerance, fine.smallest, fine.neglected);
-  if (const auto cached = load_transient(cache_directory, key);
-      cached && solution_.adopt(cached->snapshots)) {
-    velocity_error_ = cached->velocity_error;
-    gradient_error_ = cached->gradient_error;
-    from_cache_ = true;
-    return;
-  }
+  const std::string key = fmt::format("{} {} {}", transient_name(problem), describe(fine_resolution(problem)),
+                                      describe(coarse_resolution(problem)));
   TransientSolution coarse(problem, coarse_resolution(problem));
-  coarse.solve();
-  solution_.solve();
+  const auto cached = load_transient(cache_directory, key);
+  from_cache_ = cached && solution_.adopt(cached->fine) && coarse.adopt(cached->coarse);
+  if (!from_cache_) {
+    coarse.solve();
+    solution_.solve();
+    save_transient(cache_directory, key, {solution_.snapshots(), coarse.snapshots()});
+  }
   compare(coarse);
-  save_transient(cache_directory, key, {velocity_error_, gradient_error_, solution_.snapshots()});
 }
 
 void TransientChannel::compare(const TransientSolution& coarse) {

@@ -9,6 +9,10 @@
 
 namespace reference {
 
+/// What problems have in common that one computation serves, the one with the latest time: the flow, and when
+/// it has to be accurate from.
+std::string transient_name(const ChannelProblem& problem);
+
 /// Start-up of a channel of any fluid with a monotone flow curve, computed (see TransientSolution) twice,
 /// with a coarse and a fine resolution; the fine one is offered, and twice their difference is the stated
 /// error. For pure Poiseuille and pure Couette start-up that is well below 1e-9 in velocity; combined flows
@@ -16,9 +20,10 @@ namespace reference {
 /// zero-shear point moves.
 class TransientChannel : public ChannelSolution {
  public:
-  /// Computes the solution, or loads it from `cache_directory` if an earlier run left it there (empty: no
-  /// cache). The key is every parameter and the format version; unreadable or damaged files are ignored, and
-  /// a cache that cannot be written costs nothing but time. Throws std::invalid_argument for a bad problem
+  /// Computes the solution, or loads it from `cache_directory` if an earlier one of the same transient_name
+  /// that reached as far was left there (empty: no cache): the numbers are the same. The key is every
+  /// parameter and the format version; unreadable or damaged files are ignored, and a cache that cannot be
+  /// written costs nothing but time. Throws std::invalid_argument for a bad problem
   /// (see ChannelProblem, FlowCurve; at least one positive time; not a Newtonian curve, for which
   /// NewtonianChannel is exact) and std::runtime_error if the implicit steps fail to converge.
   explicit TransientChannel(const ChannelProblem& problem, const std::filesystem::path& cache_directory = {});

@@ -68,7 +68,7 @@ void TransientSolution::choose_layer() {
     // changed by now.
     const double neglected = std::max({bend * share, std::abs(layer_->velocity(height, start_time_)) / plate,
                                        std::abs(problem_.body_acceleration) * start_time_ / plate});
-    const bool early = problem_.first_time() == 0.0 || start_time_ < 0.01 * problem_.first_time();
+    const bool early = problem_.accurate_from() == 0.0 || start_time_ < 0.01 * problem_.accurate_from();
     if ((neglected < resolution_.neglected && early) || share < kThinnestLayer) return;
   }
 }
@@ -120,10 +120,11 @@ void TransientSolution::solve() {
   ShearIntegration settings;
   settings.start_time = start_time_;
   settings.end_time = problem_.last_time();
-  settings.first_step = fronts_arrived_     ? 1e-6 * start_time_
-                        : start_time_ > 0.0 ? 0.05 * start_time_
-                                            : 1e-4 * std::sqrt(resolution_.tolerance) * problem_.first_time();
-  settings.accurate_from = problem_.first_time();
+  settings.first_step = fronts_arrived_ ? 1e-6 * start_time_
+                        : start_time_ > 0.0
+                            ? 0.05 * start_time_
+                            : 1e-4 * std::sqrt(resolution_.tolerance) * problem_.accurate_from();
+  settings.accurate_from = problem_.accurate_from();
   settings.velocity_scale = velocity_scale_;
   settings.tolerance = resolution_.tolerance;
   history_ = integrate_shear(diffusion, line, start(line), settings);
@@ -131,18 +132,20 @@ void TransientSolution::solve() {
 
 bool TransientSolution::adopt(const std::vector<GradientHistory::Snapshot>& snapshots) {
   history_.reset();
-  const bool needed = problem_.last_time() > start_time_;
-  if (!needed || snapshots.empty()) return !needed && snapshots.empty();
+  const double last = problem_.last_time();
+  if (last <= start_time_) return true;
   GradientHistory history(mesh());
   const std::size_t nodes = history.line().size();
-  for (const auto& snapshot : snapshots) {
-    const bool later = history.empty() ? snapshot.time > start_time_ : snapshot.time > history.last_time();
-    if (!later || snapshot.w.size() != nodes || snapshot.rate.size() != nodes) return false;
-    history.append(snapshot);
+  bool beyond = false;  // integrate_shear goes one step beyond; what lies further was for a later time
+  for (auto snapshot = snapshots.begin(); snapshot != snapshots.end() && !beyond; ++snapshot) {
+    const double before = history.empty() ? start_time_ : history.last_time();
+    if (!(snapshot->time > before) || snapshot->w.size() != nodes || snapshot->rate.size() != nodes)
+      return false;
+    beyond = before >= last;
+    history.append(*snapshot);
   }
-  if (history.last_time() < problem_.last_time()) return false;
-  history_ = std::move(history);
-  return true;
+  if (beyond) history_ = std::move(history);
+  return beyond;
 }
 
 std::vector<GradientHistory::Snapshot> TransientSolution::snapshots() const {

@@ -40,8 +40,9 @@ class TransientSolution {
 
   /// Computes the history up to the last of the problem's times.
   void solve();
-  /// Takes over snapshots computed before for the same problem with the same resolution; false, and nothing
-  /// taken, if they do not fit it.
+  /// Takes over snapshots computed before with the same resolution for the same flow, accurate from the same
+  /// time and at least as long: what this problem's own solve() would have computed. False, and nothing
+  /// taken, if they do not fit or do not reach far enough.
   bool adopt(const std::vector<GradientHistory::Snapshot>& snapshots);
   /// What solve computed: empty if all times lie in the exact beginning.
   [[nodiscard]] std::vector<GradientHistory::Snapshot> snapshots() const;

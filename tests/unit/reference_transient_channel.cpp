@@ -210,12 +210,36 @@ TEST_CASE("transient channel: the cache gives the same bytes back, and nothing t
     std::filesystem::resize_file(stored, 0);
   }
   SECTION("another problem's") {
-    std::ofstream(stored, std::ios::binary) << "mpm-verify transient reference, format 2\nsomething else\n";
+    std::ofstream(stored, std::ios::binary) << "mpm-verify transient reference, format 3\nsomething else\n";
   }
   const TransientChannel third(thickening, scratch.path);
   CHECK_FALSE(third.from_cache());
   CHECK(third.velocity(0.3e-3, 0.2) == first.velocity(0.3e-3, 0.2));
   CHECK(TransientChannel(thickening, scratch.path).from_cache());
+}
+
+TEST_CASE("transient channel: a shorter problem reads the same numbers off a longer one's history") {
+  const Scratch scratch;
+  for (const double force : {0.0, kForce}) {  // from a landed front, and from rest
+    const FlowCurve curve =
+        force == 0.0 ? FlowCurve(PowerLawCurve{1e-6, 1.4}) : FlowCurve(CrossCurve{1e-6, 4e-6, 1.0, 1.0});
+    const double plate = force == 0.0 ? kPlate : 0.0;
+    const ChannelProblem brief = problem(curve, force, plate, {0.02, 0.1});
+    const ChannelProblem longer = problem(curve, force, plate, {0.05, 0.4});
+    const TransientChannel alone(brief);
+    CHECK_FALSE(TransientChannel(longer, scratch.path).from_cache());
+    const TransientChannel shared(brief, scratch.path);
+    CHECK(shared.from_cache());
+    CHECK(shared.stated_error() == alone.stated_error());
+    CHECK(shared.stated_gradient_error() == alone.stated_gradient_error());
+    for (const double t : {0.005, 0.02, 0.0734, 0.1}) {
+      const Gap g = gap(shared, alone, t);
+      CHECK(g.velocity == 0.0);
+      CHECK(g.gradient == 0.0);
+    }
+    CHECK_FALSE(TransientChannel(problem(curve, force, plate, {0.02, 0.5}), scratch.path).from_cache());
+    CHECK_FALSE(TransientChannel(problem(curve, force, plate, {0.002, 0.1}), scratch.path).from_cache());
+  }
 }
 
 TEST_CASE("transient channel: a cache that cannot be written costs nothing but time") {

@@ -6,6 +6,7 @@
 
 #include "reference/discrete_usf_channel.hpp"
 #include "reference/steady_channel.hpp"
+#include "reference/transient_channel.hpp"
 #include "verification/flows/reference_store.hpp"
 
 namespace verification {
@@ -118,9 +119,10 @@ std::shared_ptr<const ExactField> ChannelFlow::exact(const std::vector<double>& 
   return std::make_shared<ContinuousChannel>(parameters_.axis, channel_solution(problem(times)));
 }
 
-std::optional<std::string> ChannelFlow::costly_reference(const std::vector<double>& times) const {
+std::optional<CostlyReference> ChannelFlow::costly_reference(const std::vector<double>& times) const {
   if (parameters_.fluid.curve.newtonian()) return std::nullopt;  // a series
-  return problem(times).describe();
+  const reference::ChannelProblem asked = problem(times);
+  return CostlyReference{reference::transient_name(asked), asked.last_time()};
 }
 
 reference::ChannelProblem ChannelFlow::problem(const std::vector<double>& times) const {

@@ -24,7 +24,8 @@ class ChannelFlow final : public Flow {
 
   [[nodiscard]] mpm::Scene scene(const Discretisation& discretisation) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const override;
-  [[nodiscard]] std::optional<std::string> costly_reference(const std::vector<double>& times) const override;
+  [[nodiscard]] std::optional<CostlyReference> costly_reference(
+      const std::vector<double>& times) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> exact_discrete(const Discretisation& discretisation,
                                                                  double dt) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> steady_nodes(

@@ -62,6 +62,13 @@ struct Oscillation {
   double decay_rate = 0;         ///< [1/s]
 };
 
+/// A reference that takes long to compute. Whoever asks for one of the same name that ends no later finds it
+/// done.
+struct CostlyReference {
+  std::string name;
+  double end = 0;  ///< [s]
+};
+
 /// A flow problem: what is solved, and what the answer is. Adding one: a class here, its reader in the table
 /// of flows/flow_reader.cpp.
 class Flow {
@@ -77,9 +84,10 @@ class Flow {
   /// null where none is known. May take seconds to compute, once a process.
   [[nodiscard]] virtual std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const = 0;
 
-  /// Name of the reference that exact() has to compute for these times, where that takes long: whoever asks
-  /// for one of the same name finds it done. None where exact() is at hand.
-  [[nodiscard]] virtual std::optional<std::string> costly_reference(const std::vector<double>& times) const {
+  /// The reference that exact() has to compute for these times, where that takes long. None where exact() is
+  /// at hand.
+  [[nodiscard]] virtual std::optional<CostlyReference> costly_reference(
+      const std::vector<double>& times) const {
     static_cast<void>(times);
     return std::nullopt;
   }

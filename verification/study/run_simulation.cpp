@@ -148,7 +148,7 @@ std::vector<reports::StateRow> exact_state(const SceneConfig& scene, const Exact
   return rows;
 }
 
-std::optional<std::string> costly_reference(const Study& study, const SceneConfig& scene) {
+std::optional<CostlyReference> costly_reference(const Study& study, const SceneConfig& scene) {
   if (study.comparison != Comparison::Exact && scene.start == 0) return std::nullopt;
   return scene.flow->costly_reference(scene.reference_times());
 }

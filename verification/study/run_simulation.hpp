@@ -9,8 +9,8 @@ namespace verification {
 /// Interrupted when a signal has come (interruption.hpp).
 RunData run_simulation(const Study& study, const PlannedRun& plan);
 
-/// Name of the reference that a run needs and that takes long to compute (Flow::costly_reference).
-std::optional<std::string> costly_reference(const Study& study, const SceneConfig& scene);
+/// The reference that a run needs and that takes long to compute (Flow::costly_reference).
+std::optional<CostlyReference> costly_reference(const Study& study, const SceneConfig& scene);
 
 /// What the study compares a scene with; null where nothing is known.
 std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneConfig& scene);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <map>
 #include <mutex>
-#include <set>
 #include <string>
 #include <thread>
 
@@ -14,16 +14,23 @@ namespace verification {
 
 Schedule schedule(const std::vector<Study>& studies) {
   Schedule schedule;
-  std::set<std::string> references;
+  struct Longest {
+    double end;
+    Job job;
+  };
+  std::map<std::string, Longest> references;
   for (std::size_t s = 0; s < studies.size(); ++s)
     for (std::size_t r = 0; r < studies[s].runs.size(); ++r) {
       const SceneConfig& scene = studies[s].runs[r].scene;
       (studies[s].repetitions > 0 ? schedule.alone : schedule.shared)
           .push_back({s, r, scene.particle_steps()});
       const auto reference = costly_reference(studies[s], scene);
-      if (reference && references.insert(*reference).second)
-        schedule.shared.push_back({s, r, std::numeric_limits<double>::infinity(), Job::Kind::Reference});
+      if (!reference) continue;
+      Longest& longest = references.try_emplace(reference->name, Longest{0, {}}).first->second;
+      if (reference->end > longest.end)
+        longest = {reference->end, {s, r, std::numeric_limits<double>::infinity(), Job::Kind::Reference}};
     }
+  for (const auto& [name, longest] : references) schedule.shared.push_back(longest.job);
   for (std::size_t s = 0; s < studies.size(); ++s)
     for (std::size_t c = 0; c < studies[s].stability.cases.size(); ++c)
       schedule.shared.push_back(

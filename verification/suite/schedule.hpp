@@ -21,8 +21,8 @@ struct Job {
 
 /// Jobs in the order in which they are taken.
 struct Schedule {
-  /// On all threads. References that take long, each once, so that no run has to wait for one; then the
-  /// longest first, so that no long one is left for the end.
+  /// On all threads. References that take long, each once as far as any run needs it, so that no run has to
+  /// wait for one; then the longest first, so that no long one is left for the end.
   std::vector<Job> shared;
   std::vector<Job> alone;  ///< after those, one at a time: runs whose time is to be measured
 };
