@@ -22,6 +22,7 @@ class ParticleReset {
   ParticleReset(const Scene& scene, const Scheme& scheme, const Grid& grid, const WallNodes& walls)
       : every_(scheme.reset_every),
         most_strain_(scheme.reset_strain),
+        needs_gradients_(needs_gradients(scene)),
         velocity_mass_(grid, walls),
         density_mass_(grid) {
     const Particles seeded = seed_particles(scene);
@@ -56,7 +57,7 @@ class ParticleReset {
         particles.affine[p] = Apic::affine_field<Basis>(grid, grid.velocity, position_[p]);
       particles.mass[p] = particles.density[p] * volume_[p];
     }
-    if constexpr (Transfer::is_grid_field) take_gradients<Basis>(grid, particles);
+    if (Transfer::is_grid_field && needs_gradients_) take_gradients<Basis>(grid, particles);
     keep_mass(particles);
     keep_momentum(momentum, grid, particles);
   }
@@ -124,9 +125,10 @@ class ParticleReset {
 
   long every_;          // steps; 0: not by steps
   double most_strain_;  // 0: not by strain
-  long steps_ = 0;      // since the last reset
-  double strain_ = 0;   // since the last reset, where the fluid is strained fastest
-  double mass_ = 0;     // of all particles at the start, which nothing changes [kg/m]
+  bool needs_gradients_;
+  long steps_ = 0;     // since the last reset
+  double strain_ = 0;  // since the last reset, where the fluid is strained fastest
+  double mass_ = 0;    // of all particles at the start, which nothing changes [kg/m]
   VectorField position_;
   ScalarField volume_;  // [m2]
   VectorField weight_, density_;

@@ -11,7 +11,8 @@ struct Particles {
   ScalarField mass;          ///< m_p [kg/m], constant
   ScalarField density;       ///< rho_p [kg/m3]
   std::vector<Mat2> stress;  ///< Cauchy stress sigma_p [Pa]
-  std::vector<Mat2> affine;  ///< velocity gradient that particles of APIC (C_p) and full mass carry [1/s]
+  std::vector<Mat2> affine;  ///< velocity gradient that particles of APIC (C_p), and compressible ones of
+                             ///< full mass, carry [1/s]
 
   [[nodiscard]] std::size_t size() const { return mass.size(); }
 };

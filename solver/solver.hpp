@@ -192,7 +192,7 @@ class Solver final : public Simulation {
     if constexpr (std::is_same_v<Mass, ConsistentMass>) {
       map_velocity(scene_.start, grid_, grid_.velocity, mass_, table_);
       grid_to_particles(0);
-      take_gradients<Basis>(grid_, particles_);
+      if (needs_gradients(scene_)) take_gradients<Basis>(grid_, particles_);
     } else {
       if constexpr (std::is_same_v<Transfer, Apic>) particles_.affine = initial_gradients(scene_, particles_);
       const VectorField jump = walls_.initial_jump(grid_);
@@ -308,7 +308,7 @@ class Solver final : public Simulation {
   /// The second half of a drift, with the velocity that the particles have at the end of the step.
   void close_drift(double t, double dt) {
     if constexpr (Transfer::is_grid_field) {
-      take_gradients<Basis>(grid_, particles_);
+      if (needs_gradients(scene_)) take_gradients<Basis>(grid_, particles_);
       return drift_straight(dt);
     }
     if constexpr (Transfer::keeps_velocity) map_velocity(t, grid_, grid_.velocity, mass_, table_);
@@ -317,7 +317,7 @@ class Solver final : public Simulation {
 
   /// The same for particles whose velocity is the grid's: along straight lines, without another projection.
   void drift_straight(double dt) {
-    strain_straight(particles_, dt, scene_.fluid.pressure);
+    if (needs_gradients(scene_)) strain_straight(particles_, dt);
     judge(move_particles(grid_, particles_, dt, [&](std::size_t p) { return particles_.velocity[p]; }));
   }
 
