@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -15,6 +16,7 @@
 
 #include "reports/atomic_file.hpp"
 #include "reports/figure_cache.hpp"
+#include "reports/for_each_index.hpp"
 #include "reports/io_error.hpp"
 
 namespace reports {
@@ -106,6 +108,59 @@ std::string one_line(std::string_view text) {
   return line.size() > 400 ? line.substr(0, 400) + "..." : line;
 }
 
+/// The two images of a figure. Drawn under a name with ".part" behind it.
+struct Images {
+  Images(const fs::path& directory, const std::string& name)
+      : svg(directory / (name + ".svg")), png(directory / (name + ".png")) {}
+
+  void remove() const {
+    std::error_code error;
+    for (const fs::path* image : {&svg, &png}) fs::remove(*image, error);
+  }
+
+  /// Gives both their names, or leaves neither: whether both had been drawn.
+  [[nodiscard]] bool take_parts() const {
+    bool drawn = true;
+    std::error_code error;
+    for (const fs::path* image : {&svg, &png}) {
+      const fs::path part = image->string() + ".part";
+      if (drawn && fs::exists(part, error) && fs::file_size(part, error) > 0) {
+        fs::rename(part, *image, error);
+        drawn = !error;
+      } else {
+        drawn = false;
+      }
+      fs::remove(part, error);
+    }
+    if (!drawn) remove();
+    return drawn;
+  }
+
+  fs::path svg, png;
+};
+
+bool is_drawn(const fs::path& directory, const Drawing& drawing) {
+  const Images images(directory, drawing.name);
+  std::error_code error;
+  return holds_exactly(directory / (drawing.name + ".gp"), drawing.script) && fs::exists(images.svg, error) &&
+         fs::exists(images.png, error);
+}
+
+/// What gnuplot is given to draw a figure, whatever it has drawn before.
+std::vector<std::string> drawing_arguments(const Drawing& drawing) {
+  return {"-e", "reset session", "-e", "part = '.part'", drawing.name + ".gp"};
+}
+
+std::string draw_alone(const std::string& program, const fs::path& directory, const Drawing& drawing) {
+  const Outcome outcome = run_program(program, directory, drawing_arguments(drawing));
+  const Images images(directory, drawing.name);
+  if (images.take_parts() && outcome.status == 0) return "";
+  images.remove();
+  return fmt::format("{} failed on {} (status {}): {}", program,
+                     (directory / (drawing.name + ".gp")).string(), outcome.status,
+                     outcome.complaint.empty() ? "it wrote no image" : one_line(outcome.complaint));
+}
+
 }  // namespace
 
 std::string gnuplot_text(std::string_view text) {
@@ -133,40 +188,40 @@ Gnuplot::Gnuplot(fs::path cache) : cache_(std::move(cache)) {
   program_ = find_program(wanted_);
 }
 
-std::string Gnuplot::draw(const fs::path& directory, const std::string& name,
-                          const std::string& script) const {
-  const fs::path script_file = directory / (name + ".gp");
-  const fs::path images[] = {directory / (name + ".svg"), directory / (name + ".png")};
-  std::error_code error;
-  if (holds_exactly(script_file, script) && fs::exists(images[0], error) && fs::exists(images[1], error))
-    return "";
-
+std::vector<std::string> Gnuplot::draw(const fs::path& directory, const std::vector<Drawing>& drawings,
+                                       int jobs) const {
   const FigureCache cache(cache_, program_);
-  // Images go first, so that an interruption cannot leave them beside a script that they were not drawn from.
-  for (const fs::path& image : images) fs::remove(image, error);
-  write_file(script_file, script);
-  if (!available()) return fmt::format("{} not found", wanted_);
-  if (cache.fetch(script, images[0], images[1])) return "";
+  std::vector<std::string> problems(drawings.size());
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < drawings.size(); ++i) {
+    if (drawings[i].script.empty() || is_drawn(directory, drawings[i])) continue;
+    const Images images(directory, drawings[i].name);
+    // Images go first, so that an interruption cannot leave them beside a script that they were not drawn
+    // from.
+    images.remove();
+    write_file(directory / (drawings[i].name + ".gp"), drawings[i].script);
+    if (!available())
+      problems[i] = fmt::format("{} not found", wanted_);
+    else if (!cache.fetch(drawings[i].script, images.svg, images.png))
+      missing.push_back(i);
+  }
 
-  const Outcome outcome = run_program(program_, directory, {"-e", "part = '.part'", name + ".gp"});
-  bool drawn = outcome.status == 0;
-  for (const fs::path& image : images) {
-    const fs::path part = image.string() + ".part";
-    if (drawn && fs::exists(part, error) && fs::file_size(part, error) > 0) {
-      fs::rename(part, image, error);
-      drawn = !error;
-    } else {
-      drawn = false;
+  const std::size_t batches = std::min(missing.size(), static_cast<std::size_t>(std::max(1, jobs)));
+  for_each_index(batches, jobs, [&](std::size_t first) {
+    std::vector<std::string> arguments;
+    for (std::size_t k = first; k < missing.size(); k += batches)
+      for (const std::string& argument : drawing_arguments(drawings[missing[k]]))
+        arguments.push_back(argument);
+    // It stops at the first script that it cannot follow, and does not say which.
+    const bool all_drawn = run_program(program_, directory, arguments).status == 0;
+    for (std::size_t k = first; k < missing.size(); k += batches) {
+      const Drawing& drawing = drawings[missing[k]];
+      const Images images(directory, drawing.name);
+      if (!all_drawn || !images.take_parts()) problems[missing[k]] = draw_alone(program_, directory, drawing);
+      if (problems[missing[k]].empty()) cache.keep(drawing.script, images.svg, images.png);
     }
-    fs::remove(part, error);
-  }
-  if (drawn) {
-    cache.keep(script, images[0], images[1]);
-    return "";
-  }
-  for (const fs::path& image : images) fs::remove(image, error);
-  return fmt::format("{} failed on {} (status {}): {}", wanted_, script_file.string(), outcome.status,
-                     outcome.complaint.empty() ? "it wrote no image" : one_line(outcome.complaint));
+  });
+  return problems;
 }
 
 }  // namespace reports

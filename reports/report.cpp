@@ -2,13 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <exception>
-#include <functional>
-#include <mutex>
-#include <thread>
-
 #include "reports/atomic_file.hpp"
+#include "reports/for_each_index.hpp"
 #include "reports/gnuplot.hpp"
 #include "reports/junit.hpp"
 #include "reports/report_data.hpp"
@@ -19,30 +14,6 @@
 namespace reports {
 namespace {
 
-/// Calls body(i) for every i below count on `jobs` threads. The first exception ends it and is thrown.
-void for_each_index(std::size_t count, int jobs, const std::function<void(std::size_t)>& body) {
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr cause;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        body(i);
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        if (!cause) cause = std::current_exception();
-        next = count;
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> pool;
-    for (int i = 1; i < jobs; ++i) pool.emplace_back(work);
-    work();
-  }
-  if (cause) std::rethrow_exception(cause);
-}
-
 void draw_figures(const std::filesystem::path& dir, ReportData& data, const FigureOptions& options) {
   const std::vector<FigureRecord>& records = data.results.figures;
   if (records.empty()) return;
@@ -50,14 +21,14 @@ void draw_figures(const std::filesystem::path& dir, ReportData& data, const Figu
   ensure_directory(directory);
   const Gnuplot gnuplot(options.cache);
   data.figures.resize(records.size());
-  std::vector<std::string> problems(records.size());
   for_each_index(records.size(), options.jobs, [&](std::size_t i) {
-    ReportFigure& shown = data.figures[i];
-    shown.figure = build_figure(dir, records[i], data.results);
-    if (shown.figure.script.empty()) return;
-    problems[i] = gnuplot.draw(directory, records[i].figure, shown.figure.script);
-    shown.drawn = problems[i].empty();
+    data.figures[i].figure = build_figure(dir, records[i], data.results);
   });
+  std::vector<Drawing> drawings;
+  for (const ReportFigure& shown : data.figures) drawings.push_back({shown.figure.name, shown.figure.script});
+  const std::vector<std::string> problems = gnuplot.draw(directory, drawings, options.jobs);
+  for (std::size_t i = 0; i < records.size(); ++i)
+    data.figures[i].drawn = !drawings[i].script.empty() && problems[i].empty();
   std::size_t lost = 0;
   std::string complaint;
   for (std::size_t i = 0; i < records.size(); ++i) {

@@ -96,7 +96,7 @@ std::string draw_figures(const std::filesystem::path& directory, const Collector
   if (!gnuplot.available()) return "no figures: " + gnuplot.wanted() + " is not there; install gnuplot-nox";
   std::string said;
   const auto draw = [&](const char* name, const std::string& script) {
-    if (said.empty() && !script.empty()) said = gnuplot.draw(directory, name, script);
+    if (said.empty() && !script.empty()) said = gnuplot.draw(directory, {name, script});
   };
   draw("bench-size", size_figure(rates));
   draw("bench-schemes", scheme_figure(rates));

@@ -263,26 +263,6 @@ TEST_CASE("a profile shows one column of a full run", "[reports]") {
   CHECK(count(figure.script, "\n0.9875 ") == 5);
 }
 
-TEST_CASE("text cannot leave its quotes in a gnuplot script", "[reports]") {
-  CHECK(gnuplot_text("it's `x` \\n @m") == "\"it\\047s \\140x\\140 \\134n \\100m\"");
-  CHECK(gnuplot_text("a\nb\t\"") == "\"a\\nb \\042\"");
-  if (!gnuplot_is_here()) return;
-  TemporaryDirectory dir;
-  for (const std::string evil :
-       {"'; system('touch pwned'); print '`touch pwned`$(touch pwned)\"",
-        "\"; system(\"touch pwned\"); print \"", "`touch pwned`", "\\\"; !touch pwned",
-        "a\n!touch pwned\nsystem 'touch pwned'", "\\", "%s %d {/Symbol a"}) {
-    FigureScript script(evil, evil, evil);
-    script.line({{0, 0}, {1, 1}}, curve_colour(0), evil);
-    INFO(evil);
-    CHECK(Gnuplot().draw(dir.path(), "f", script.text("f")) == "");
-    REQUIRE(std::filesystem::exists(dir / "f.svg"));
-    CHECK_FALSE(std::filesystem::exists(dir / "pwned"));
-    // It stands in the image as it was given: nothing of it was interpreted.
-    CHECK_THAT(read_file(dir / "f.svg"), contains(evil.substr(0, evil.find('\n'))));
-  }
-}
-
 TEST_CASE("wrapping, thinning, encoding", "[reports]") {
   CHECK(wrap("aa bb  cc", 5) == "aa bb\ncc");
   CHECK(wrap("longword x", 3) == "longword\nx");
