@@ -1,11 +1,10 @@
 #include "reports/csv.hpp"
 
-#include <fmt/format.h>
+#include <fmt/compile.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 
 #include "reports/io_error.hpp"
 
@@ -14,6 +13,12 @@ namespace {
 
 // ASCII "unit separator": stands for a newline inside quotes while the line-oriented reader is at work.
 constexpr char newline_mark = '\x1f';
+
+template <class T>
+void append_number(std::string& line, T number) {
+  char text[32];  // the longest, -1.7976931348623157e+308, has 24
+  line.append(text, fmt::format_to(text, FMT_COMPILE("{}"), number));
+}
 
 }  // namespace
 
@@ -36,12 +41,12 @@ void append_field(std::string& line, double number) {
   if (std::isnan(number)) {
     line += "nan";  // a NaN's sign means nothing, and would differ between machines
   } else {
-    fmt::format_to(std::back_inserter(line), "{}", number);
+    append_number(line, number);
   }
 }
 
 void append_field(std::string& line, long number) {
-  fmt::format_to(std::back_inserter(line), "{}", number);
+  append_number(line, number);
 }
 
 void append_field(std::string& line, bool truth) {
