@@ -41,15 +41,16 @@ class ViscousNewton final : public ImplicitViscosity {
         step = direction(residual);
         change = largest(step);
       }
-      fresh = false;
       if (!std::isfinite(change)) break;
-      const double fraction = advance(velocity, step, residual);
-      converged = fraction == 1 && change <= tolerance * std::max(largest(velocity), scale_);
-      // A cut step says nothing on how well the matrix contracts: take the present one's next time.
-      if (fraction < 1 && !converged) {
-        factorise(velocity);
-        fresh = true;
+      converged = change <= tolerance * std::max(largest(velocity), scale_);
+      if (converged) {  // too small a step to change the residual, which goes on to tell the walls' forces
+        for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] += step[i];
+        break;
       }
+      const double fraction = advance(velocity, step, residual);
+      // A cut step says nothing on how well the matrix contracts: take the present one's next time.
+      fresh = fraction < 1;
+      if (fresh) factorise(velocity);
       last_change = change;
     }
     Vec2 wall_impulse = Vec2::Zero();
