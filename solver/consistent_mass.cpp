@@ -85,25 +85,25 @@ void ConsistentMass::fix_nodes() {
 void ConsistentMass::solve_from(VectorField& guess, VectorField& field, const ScalarField& nodal_mass) {
   Vec2 total = Vec2::Zero();
   for (const Vec2& share : field) total += share;
-  VectorField fixed(field.size(), Vec2::Zero());
+  fixed_.assign(field.size(), Vec2::Zero());
   for (std::size_t i = 0; i < field.size(); ++i) {
-    if (is_wall_[i]) fixed[i] = guess[i];
-    if (is_fixed_[i]) guess[i] = fixed[i];
+    if (is_wall_[i]) fixed_[i] = guess[i];
+    if (is_fixed_[i]) guess[i] = fixed_[i];
   }
   if (direct_)
-    solve_direct(fixed, guess, field);
+    solve_direct(guess, field);
   else
-    iterate(fixed, guess, field);
+    iterate(guess, field);
   if (!has_walls_) keep_total(total, nodal_mass, field);
   for (std::size_t i = 0; i < field.size(); ++i)
-    if (is_fixed_[i]) field[i] = fixed[i];
+    if (is_fixed_[i]) field[i] = fixed_[i];
 }
 
-void ConsistentMass::solve_direct(VectorField& fixed, VectorField& guess, VectorField& field) const {
+void ConsistentMass::solve_direct(VectorField& guess, VectorField& field) {
   auto rows = rows_of(field);
-  rows -= direct_->matrix * rows_of(fixed);
+  rows.noalias() -= direct_->matrix * rows_of(fixed_);
   for (std::size_t i = 0; i < field.size(); ++i)
-    if (is_fixed_[i]) field[i] = largest_ * fixed[i];
+    if (is_fixed_[i]) field[i] = largest_ * fixed_[i];
   const Eigen::MatrixX2d right_side = rows;
   if (direct_->holds) {
     rows = direct_->factor.solve(right_side);
@@ -117,14 +117,14 @@ void ConsistentMass::solve_direct(VectorField& fixed, VectorField& guess, Vector
   rows = iteration.solveWithGuess(right_side, start);
 }
 
-void ConsistentMass::iterate(const VectorField& fixed, const VectorField& guess, VectorField& field) {
+void ConsistentMass::iterate(const VectorField& guess, VectorField& field) {
   Iterative& plane = *iterative_;
   const auto free_nodes_only = [&](VectorField& v) {
     for (std::size_t i = 0; i < v.size(); ++i)
       if (is_fixed_[i]) v[i].setZero();
   };
   VectorField right_side(field.size());
-  plane.matrix.multiply(fixed, right_side);
+  plane.matrix.multiply(fixed_, right_side);
   for (std::size_t i = 0; i < field.size(); ++i) right_side[i] = field[i] - right_side[i];
   free_nodes_only(right_side);
   field = guess;

@@ -82,8 +82,8 @@ class ConsistentMass {
   void assemble_direct(const StencilTable& table, const ScalarField& particle_mass);
   void fix_nodes();
   void solve_from(VectorField& guess, VectorField& field, const ScalarField& nodal_mass);
-  void solve_direct(VectorField& fixed, VectorField& guess, VectorField& field) const;
-  void iterate(const VectorField& fixed, const VectorField& guess, VectorField& field);
+  void solve_direct(VectorField& guess, VectorField& field);
+  void iterate(const VectorField& guess, VectorField& field);
   void keep_total(const Vec2& total, const ScalarField& nodal_mass, VectorField& field) const;
 
   std::vector<char> is_wall_, is_fixed_;  // fixed: on a wall or without mass
@@ -94,6 +94,7 @@ class ConsistentMass {
   StencilTable last_;   // whose matrix stands assembled, with these masses
   ScalarField last_mass_;
   std::array<VectorField, 2> guess_;
+  VectorField fixed_;  // prescribed values; zero elsewhere
   SparseMatrix written_out_;
 };
 

@@ -32,13 +32,14 @@ class ViscousNewton final : public ImplicitViscosity {
     if (!factorised_) factorise(velocity);
     bool fresh = false, converged = false;
     double last_change = std::numeric_limits<double>::infinity();
-    VectorField residual = residual_at(velocity);
+    VectorField residual(velocity.size()), step(velocity.size());
+    residual_at(velocity, residual);
     for (int iteration = 0; iteration < most_iterations && !converged; ++iteration) {
-      VectorField step = direction(residual);
+      direction(residual, step);
       double change = largest(step);
       if (!fresh && !(change <= contraction * last_change)) {
         factorise(velocity);
-        step = direction(residual);
+        direction(residual, step);
         change = largest(step);
       }
       if (!std::isfinite(change)) break;
@@ -119,10 +120,10 @@ class ViscousNewton final : public ImplicitViscosity {
   [[nodiscard]] double volume(std::size_t p) const { return particles_->mass[p] / particles_->density[p]; }
 
   /// M (v - start) - dt (f + f_visc(v)), zero at fixed nodes; what stood at the walls is kept.
-  VectorField residual_at(const VectorField& velocity) {
-    VectorField difference = velocity, residual(velocity.size(), Vec2::Zero());
-    for (std::size_t i = 0; i < velocity.size(); ++i) difference[i] -= (*start_)[i];
-    rows_of(residual) = *mass_ * rows_of(difference);
+  void residual_at(const VectorField& velocity, VectorField& residual) {
+    difference_.resize(velocity.size());
+    for (std::size_t i = 0; i < velocity.size(); ++i) difference_[i] = velocity[i] - (*start_)[i];
+    rows_of(residual).noalias() = *mass_ * rows_of(difference_);
     for (std::size_t i = 0; i < velocity.size(); ++i) residual[i] -= dt_ * (*force_)[i];
     const auto width = static_cast<std::size_t>(table_->width);
     for (std::size_t p = 0; p < particles_->size(); ++p) {
@@ -136,7 +137,6 @@ class ViscousNewton final : public ImplicitViscosity {
     wall_residual_ = residual;
     for (std::size_t i = 0; i < residual.size(); ++i)
       if (is_fixed_[i]) residual[i] = Vec2::Zero();
-    return residual;
   }
 
   /// Matrix of the residual's derivative, symmetric: the part of it that trace D makes unsymmetric is left
@@ -177,24 +177,22 @@ class ViscousNewton final : public ImplicitViscosity {
     }
   }
 
-  /// -J^-1 residual
-  [[nodiscard]] VectorField direction(const VectorField& residual) const {
-    VectorField step(residual.size());
+  /// step = -J^-1 residual
+  void direction(const VectorField& residual, VectorField& step) const {
     const Eigen::Map<const Eigen::VectorXd> r(residual.front().data(),
                                               2 * static_cast<Eigen::Index>(residual.size()));
-    Eigen::Map<Eigen::VectorXd>(step.front().data(), r.size()) = -factors_.solve(r);
-    return step;
+    Eigen::Map<Eigen::VectorXd>(step.front().data(), r.size()) = factors_.solve(-r);
   }
 
   /// v += s step with s = 1, or smaller where the slope of the convex function has grown beyond the one at
   /// the start. Updates the residual and returns s.
   double advance(VectorField& velocity, const VectorField& step, VectorField& residual) {
-    const VectorField base = velocity;
+    base_ = velocity;
     const double slope_at_start = dot(residual, step);
     double low = 0, high = 1, fraction = 1;
     for (int cut = 0; cut < 30; ++cut) {
-      for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] = base[i] + fraction * step[i];
-      residual = residual_at(velocity);
+      for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] = base_[i] + fraction * step[i];
+      residual_at(velocity, residual);
       if (!Law::needs_shear_rate || is_round_off(step)) break;
       const double slope = dot(residual, step);
       if (std::abs(slope) <= 0.5 * std::abs(slope_at_start)) break;
@@ -239,6 +237,7 @@ class ViscousNewton final : public ImplicitViscosity {
   const SparseMatrix* mass_ = nullptr;
   VectorField *start_ = nullptr, *force_ = nullptr;
   VectorField wall_residual_;
+  VectorField difference_, base_;  // work space
   double dt_ = 0, scale_ = 0, least_shear_squared_ = 0;
 };
 
