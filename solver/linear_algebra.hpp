@@ -5,8 +5,8 @@
 
 namespace mpm {
 
-// Left to scalar registers (with EIGEN_UNALIGNED_VECTORIZE off): two numbers that are made one by one and read
-// as a vector have to go through memory, which costs the particle loops of Solver a sixth.
+// Left to scalar registers (with EIGEN_UNALIGNED_VECTORIZE off): two numbers that are made one by one and
+// read as a vector have to go through memory, which costs the particle loops of Solver a sixth.
 using Vec2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 using Mat2 = Eigen::Matrix<double, 2, 2, Eigen::DontAlign>;
 
