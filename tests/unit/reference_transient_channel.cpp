@@ -242,6 +242,15 @@ TEST_CASE("transient channel: a shorter problem reads the same numbers off a lon
   }
 }
 
+TEST_CASE("transient channel: degree 12 where the flow curve is nearly kinked, 8 elsewhere") {
+  const auto degree = [](const FlowCurve& curve, double force, double plate) {
+    return fine_resolution(problem(curve, force, plate, {0.1})).degree;
+  };
+  CHECK(degree(CrossCurve{1e-6, 1e-9, 1.0, 1.0}, 0.0, 1e-2) == 12);  // its exponent falls from 1 to 0.1
+  CHECK(degree(CrossCurve{1e-6, 4e-6, 1.0, 1.0}, kForce, 0.0) == 8);
+  CHECK(degree(PowerLawCurve{1e-6, 0.2}, kForce, 0.0) == 8);  // one exponent everywhere
+}
+
 TEST_CASE("transient channel: a cache that cannot be written costs nothing but time") {
   const Scratch scratch;
   std::ofstream(scratch.path) << "a file where the directory should be";

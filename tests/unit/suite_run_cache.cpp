@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -218,7 +219,8 @@ TEST_CASE("runs are taken longest first, timed ones alone at the end") {
 
 TEST_CASE("a reference that takes long is computed once, before all runs") {
   const ScratchDirectory scratch;
-  const std::string cross = with("[fluid]", "[fluid]\nmodel = \"cross\"\ninfinite_viscosity_ratio = 2.0\ntime_constant = 1.0");
+  const std::string cross =
+      with("[fluid]", "[fluid]\nmodel = \"cross\"\ninfinite_viscosity_ratio = 2.0\ntime_constant = 1.0");
   std::vector<Study> studies;
   studies.push_back(study_of(scratch, "newtonian", tiny));
   studies.push_back(study_of(scratch, "timed", "repetitions = 3\n" + cross));
@@ -230,6 +232,27 @@ TEST_CASE("a reference that takes long is computed once, before all runs") {
   for (std::size_t k : {1, 2}) CHECK(order.shared[k].kind == Job::Kind::Run);
   REQUIRE(order.alone.size() == 1);
   CHECK(order.alone[0].study == 1);
+}
+
+TEST_CASE("of references that share a computation, the one that goes furthest is computed") {
+  const ScratchDirectory scratch;
+  const auto cross = [](const std::string& outputs) {
+    std::string text = with("[fluid]",
+                            "[fluid]\nmodel = \"cross\"\ninfinite_viscosity_ratio = 2.0\n"
+                            "time_constant = 1.0");
+    return text.replace(text.find("[0.1, 0.2]"), 10, outputs);
+  };
+  std::vector<Study> studies;
+  studies.push_back(study_of(scratch, "brief", cross("[0.1, 0.2]")));
+  studies.push_back(study_of(scratch, "longest", cross("[0.3, 0.5]")));
+  studies.push_back(study_of(scratch, "long", cross("[0.4]")));
+  studies.push_back(study_of(scratch, "earlier", cross("[0.05, 0.2]")));  // to be accurate from 0.01 s on
+  const Schedule order = schedule(studies);
+  std::vector<std::size_t> computed;
+  for (const Job& job : order.shared)
+    if (job.kind == Job::Kind::Reference) computed.push_back(job.study);
+  std::ranges::sort(computed);
+  CHECK(computed == std::vector<std::size_t>{1, 3});
 }
 
 TEST_CASE("the first exception stops the jobs, whatever the threads") {
