@@ -299,7 +299,7 @@ class LaneKernel final : public Kernel {
     for (int k = 0; Slot & p : cells_.slots(block)) {
       if (fetch.sixths > 0 && ahead > 0)
         for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
-          __builtin_prefetch(reinterpret_cast<const char*>(&p) + ahead + byte);
+          fetch_ahead(reinterpret_cast<const char*>(&p) + ahead + byte);
       f(k++, p, CellWeights<Basis>(basis_, block, p.s));
     }
   }

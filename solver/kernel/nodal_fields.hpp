@@ -36,7 +36,7 @@ class NodalFields {
   [[gnu::always_inline]] void fetch(int i) const {
     const auto first = reinterpret_cast<const double*>(fields_.data()) + i;
     for (std::size_t f = 0; f < field_count; ++f)
-      if (f < first_mapped || f >= first_acceleration) __builtin_prefetch(first + f * field_size_, 1);
+      if (f < first_mapped || f >= first_acceleration) fetch_ahead(first + f * field_size_);
   }
 
   /// Sets rows of nodes to zero.

@@ -7,7 +7,7 @@ namespace {
 
 /// Cells by which the first pass advances at a time: long beside the cost of beginning a pass, short enough
 /// that memory is never idle.
-constexpr int cells_at_a_time = 128;
+constexpr int cells_at_a_time = 256;
 /// From the cells that the first pass visits to those that are fetched meanwhile: several hundred memory
 /// accesses.
 constexpr int cells_ahead = 384;
