@@ -28,8 +28,7 @@ class CellField {
   /// u(x_p) = sum_i N_ip u_i
   [[nodiscard]] Lanes at(const CellWeights<Basis>& n_p) const {
     if constexpr (Basis::is_bilinear) {
-      const Lanes s = n_p.along.value[1], t = n_p.across.value[1];
-      return (u_[0] + s * u_[1]) + t * (u_[2] + s * u_[3]);
+      return (u_[0] + n_p.s * u_[1]) + n_p.t * (u_[2] + n_p.s * u_[3]);
     } else {
       Lanes u = 0;
       unroll<Basis::support[1]>(
@@ -64,8 +63,7 @@ class CellGradient {
   };
   [[nodiscard]] Gradient at(const CellWeights<Basis>& n_p) const {
     if constexpr (Basis::is_bilinear) {
-      const Lanes s = n_p.along.value[1], t = n_p.across.value[1];
-      return {u_[0] + t * u_[1], u_[2] + s * u_[3]};
+      return {u_[0] + n_p.t * u_[1], u_[2] + n_p.s * u_[3]};
     } else {
       Gradient g{0, 0};
       unroll<Basis::support[1]>([&](int l) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "solver/kernel/cell_weights.hpp"
 
 namespace mpm::MPM_ISA {
@@ -19,7 +21,8 @@ class MomentumSums {
     });
   }
 
-  [[nodiscard]] Lanes at(const Basis&, int field, int i) const { return sum_[field][i]; }
+  /// Of a field, at the nodes of the cells.
+  [[nodiscard]] const auto& at_nodes(const Basis&, int field) const { return sum_[field]; }
 
  private:
   Lanes sum_[fields][Basis::nodes] = {};
@@ -33,28 +36,28 @@ class DivergenceSums {
 
   void add(const CellWeights<Basis>& n_p, const Stress& q) {
     if constexpr (Basis::is_bilinear) {
-      const Lanes s = n_p.along.value[1], t = n_p.across.value[1];
       const Lanes q_0[2] = {q.s_00, q.s_01}, q_1[2] = {q.s_01, q.s_11};
       for (int c : {0, 1}) {
         sum_[c][0] += q_0[c];
-        sum_[c][1] += q_0[c] * t;
+        sum_[c][1] += q_0[c] * n_p.t;
         sum_[c][2] += q_1[c];
-        sum_[c][3] += q_1[c] * s;
+        sum_[c][3] += q_1[c] * n_p.s;
       }
     } else {
       add_tensor_products(n_p, q);
     }
   }
 
-  [[nodiscard]] Lanes at(const Basis& basis, int field, int i) const {
-    const Lanes* sum = sum_[field];
+  /// Of a field, at the nodes of the cells.
+  [[nodiscard]] decltype(auto) at_nodes(const Basis& basis, int field) const {
+    const auto& sum = sum_[field];
     if constexpr (Basis::is_bilinear) {
       // dN/dx_0 is -(1 - t), 1 - t, -t, t over h_0, dN/dx_1 is -(1 - s), -s, 1 - s, s over h_1.
-      const Lanes along = basis.inverse_h[0] * (i / 2 ? sum[1] : sum[0] - sum[1]);
-      const Lanes across = basis.inverse_h[1] * (i % 2 ? sum[3] : sum[2] - sum[3]);
-      return (i % 2 ? along : 0 - along) + (i / 2 ? across : 0 - across);
+      const Lanes along_1 = basis.inverse_h[0] * sum[1], along_0 = basis.inverse_h[0] * sum[0] - along_1;
+      const Lanes across_1 = basis.inverse_h[1] * sum[3], across_0 = basis.inverse_h[1] * sum[2] - across_1;
+      return std::array{0 - along_0 - across_0, along_0 - across_1, across_0 - along_1, along_1 + across_1};
     } else {
-      return sum[i];
+      return (sum);
     }
   }
 

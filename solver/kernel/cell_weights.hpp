@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "solver/kernel/cells.hpp"
 
 namespace mpm::MPM_ISA {
@@ -52,13 +54,13 @@ struct LineWeights {
 /// N_ip and grad N_ip of the particles of a slot at the nodes i of their cells: products of one function
 /// along and one across the lanes.
 template <class Basis>
-struct CellWeights {
+struct TensorWeights {
   static constexpr int columns = Basis::support[0], rows = Basis::support[1];
   LineWeights<Basis::degree, columns> along;
   LineWeights<Basis::degree, rows> across;
 
   /// s: their places in the cells
-  CellWeights(const Basis& basis, const Block& block, const Lanes s[2])
+  TensorWeights(const Basis& basis, const Block& block, const Lanes s[2])
       : along(s[0], basis.inverse_h[0], block.polynomials[0]),
         across(s[1], basis.inverse_h[1], block.polynomials[1]) {}
 
@@ -71,5 +73,25 @@ struct CellWeights {
     });
   }
 };
+
+/// The same of the bilinear basis (1 - s)(1 - t), s (1 - t), (1 - s) t, s t: nothing but places in the cell.
+struct BilinearWeights {
+  Lanes s, t;
+
+  template <class Basis>
+  BilinearWeights(const Basis&, const Block&, const Lanes place[2]) : s(place[0]), t(place[1]) {}
+
+  template <class Visit>
+  void values_times(Lanes q, Visit&& visit) const {
+    const Lanes q_1 = q * t, q_0 = q - q_1, q_01 = q_0 * s, q_11 = q_1 * s;
+    visit(0, q_0 - q_01);
+    visit(1, q_01);
+    visit(2, q_1 - q_11);
+    visit(3, q_11);
+  }
+};
+
+template <class Basis>
+using CellWeights = std::conditional_t<Basis::is_bilinear, BilinearWeights, TensorWeights<Basis>>;
 
 }  // namespace mpm::MPM_ISA

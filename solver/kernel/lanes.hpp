@@ -37,6 +37,18 @@ template <int n, class F>
   (std::make_integer_sequence<int, n>{});
 }
 
+#ifdef MPM_COUNT_OPERATIONS
+inline long operations = 0;
+#endif
+
+/// The result of an operation; a benchmark counts them.
+inline Vector counted(Vector x) {
+#ifdef MPM_COUNT_OPERATIONS
+  ++operations;
+#endif
+  return x;
+}
+
 /// `width` doubles in one register: one of each of as many neighbouring cells.
 struct Lanes {
   Vector v;
@@ -45,10 +57,10 @@ struct Lanes {
   Lanes(double x) : v(x - Vector{}) {}
   Lanes(Vector x) : v(x) {}
 
-  friend Lanes operator+(Lanes a, Lanes b) { return a.v + b.v; }
-  friend Lanes operator-(Lanes a, Lanes b) { return a.v - b.v; }
-  friend Lanes operator*(Lanes a, Lanes b) { return a.v * b.v; }
-  friend Lanes operator/(Lanes a, Lanes b) { return a.v / b.v; }
+  friend Lanes operator+(Lanes a, Lanes b) { return counted(a.v + b.v); }
+  friend Lanes operator-(Lanes a, Lanes b) { return counted(a.v - b.v); }
+  friend Lanes operator*(Lanes a, Lanes b) { return counted(a.v * b.v); }
+  friend Lanes operator/(Lanes a, Lanes b) { return counted(a.v / b.v); }
   Lanes& operator+=(Lanes b) { return *this = *this + b; }
   Lanes& operator-=(Lanes b) { return *this = *this - b; }
 
@@ -122,7 +134,7 @@ inline double sum(Lanes x) {
 inline Lanes sqrt(Lanes x) {
   Lanes root;
   for (int lane = 0; lane < width; ++lane) root.v[lane] = std::sqrt(x.v[lane]);
-  return root;
+  return counted(root.v);
 }
 inline Lanes at_least(Lanes x, double bound) {
   return select(x < bound, bound, x);

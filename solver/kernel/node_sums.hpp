@@ -23,30 +23,31 @@ class NodeSums {
       : basis_(basis), nodes_(nodes) {}
 
   void add(int first_node, const Sums& sums) {
-    add_sums(first_node, [&](int field, int i) { return sums.at(basis_, field, i); });
+    add_sums(first_node, [&](int field) -> decltype(auto) { return sums.at_nodes(basis_, field); });
   }
 
   /// After the last block, if there was one: what moves up from it.
   void finish() {
     if (next_ < 0) return;
     for (int moved = 0; moved < Basis::degree; moved += width)
-      add_sums(next_, [](int, int) { return Lanes(0); });
+      add_sums(next_, [](int) { return std::array<Lanes, Basis::nodes>{}; });
   }
 
  private:
   static constexpr int columns = Basis::support[0], rows = Basis::support[1];
 
-  template <class At>
-  [[gnu::always_inline]] void add_sums(int first_node, At&& at) {
+  template <class AtNodes>
+  [[gnu::always_inline]] void add_sums(int first_node, AtNodes&& at_nodes) {
     next_ = first_node + width;
     unroll<Sums::fields>([&](int f) {
+      const auto& at = at_nodes(f);
       unroll<rows>([&](int l) {
-        Lanes sum = at(f, l * columns + columns - 1);
+        Lanes sum = at[l * columns + columns - 1];
         unroll<columns - 1>([&](int step) {
           Lanes& before = before_[f][l][step];
           const Lanes up = moved_up(before, sum);
           before = sum;
-          sum = at(f, l * columns + columns - 2 - step) + up;
+          sum = at[l * columns + columns - 2 - step] + up;
         });
         double* const node = nodes_[static_cast<std::size_t>(f)] + first_node + l * basis_.stride;
         store(node, load(node) + sum);

@@ -51,7 +51,8 @@ std::string size_figure(const Collector& rates) {
     const double height = rates.rate(peak, unit).value / work / 1e6;
     script.line({{800, height}, {1e6, height}}, "#555555", text, 1.5, dash);
   };
-  roof("peak/arithmetic", "operations", operations_per_particle_step(), "peak arithmetic of one core", "2");
+  roof("peak/arithmetic", "operations", kernel_operations_per_particle_step(), "peak arithmetic of one core",
+       "2");
   roof("peak/bandwidth/72", "bytes", bytes_per_particle_step, "memory bandwidth of one core, of 72 MiB", "3");
   return script.empty() ? "" : script.text("bench-size");
 }

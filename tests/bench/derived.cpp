@@ -58,8 +58,10 @@ class Derivation {
     if (!rates_.has("peak/arithmetic") || !rates_.has("peak/bandwidth/72")) return;
     const Rate arithmetic = rates_.rate("peak/arithmetic", "operations");
     const Rate bandwidth = rates_.rate("peak/bandwidth/72", "bytes");
-    const double operations = operations_per_particle_step();
+    const double operations = kernel_operations_per_particle_step();
     records_.push_back({"step/linear_newtonian", "operations a particle-step", operations, "1", 0});
+    records_.push_back(
+        {"plain_step/newtonian", "operations a particle-step", plain_operations_per_particle_step(), "1", 0});
     records_.push_back({"step/linear_newtonian", "bytes a particle-step", bytes_per_particle_step, "B", 0});
     for (const std::string size : {"800", "1000000"}) {
       const std::string name = "step/linear_newtonian/" + size + "/1";

@@ -4,10 +4,12 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
-#include <vector>
+
+#define MPM_ISA peak
+#include "solver/kernel/storage.hpp"
 
 // What this machine can do at best, measured in the same run as the solver: multiply-adds in registers, and
-// bytes streamed through memory that no cache holds.
+// bytes streamed through memory that no cache holds, on pages as large as the solver's.
 
 #if defined(__x86_64__) && !defined(__clang__)
 #define WIDEST_OF_THIS_MACHINE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
@@ -18,6 +20,8 @@
 namespace {
 
 constexpr std::size_t rounds = 1 << 14;
+
+using Array = mpm::peak::LargeArray<double>;
 
 /// rounds x sums multiply-adds, none waiting for another of the same round. Returns a number that depends on
 /// all.
@@ -69,7 +73,7 @@ MultiplyAdd fastest_multiply_add() {
 
 /// y += factor x (BLAS axpy): reads both, writes one, and nothing is fetched only to be overwritten, so that
 /// the bytes that are counted are the bytes that move.
-WIDEST_OF_THIS_MACHINE void axpy(std::vector<double>& y, const std::vector<double>& x, double factor) {
+WIDEST_OF_THIS_MACHINE void axpy(Array& y, const Array& x, double factor) {
   double* to = y.data();
   const double* from = x.data();
   for (std::size_t i = 0; i < y.size(); ++i) to[i] += factor * from[i];
@@ -89,7 +93,7 @@ void peak_arithmetic(benchmark::State& state) {
 /// Argument: MiB of both arrays.
 void peak_bandwidth(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0)) * (1 << 20) / (2 * sizeof(double));
-  std::vector<double> y(count, 1.0), x(count, 2.0);
+  Array y(count, 1.0), x(count, 2.0);
   for (auto _ : state) {
     axpy(y, x, 0.5);
     benchmark::ClobberMemory();
