@@ -1,6 +1,6 @@
 #include "reference/shear_diffusion.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,6 +1,7 @@
 #include "verification/checks/oscillation.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 

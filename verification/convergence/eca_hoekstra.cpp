@@ -1,6 +1,6 @@
 #include "verification/convergence/eca_hoekstra.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>

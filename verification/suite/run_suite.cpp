@@ -102,7 +102,7 @@ class SuiteRunner {
     const PlannedRun& plan = study.runs[job.run];
     if (cache_.load(study, plan)) return;
     try {
-      plan.scene.flow->exact(plan.scene.reference_times());
+      static_cast<void>(plan.scene.flow->exact(plan.scene.reference_times()));  // the store keeps it
     } catch (const std::exception&) {
       // The runs that need it will say so, each under its name.
     }
