@@ -14,7 +14,7 @@ constexpr int width = MPM_LANES;
 using Vector = double __attribute__((vector_size(MPM_LANES * sizeof(double))));
 
 // The C library's vector functions, within 4 units in the last place, named by its vector ABI.
-#if defined(__x86_64__) && defined(__GLIBC__)
+#if defined(__x86_64__) && defined(__GLIBC__) && MPM_LANES > 1
 #if MPM_LANES == 8
 #define MPM_VECTOR_MATH(function) _ZGVeN8v_##function
 #elif MPM_LANES == 4

@@ -1,7 +1,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstddef>
 
@@ -11,69 +10,82 @@
 // What this machine can do at best, measured in the same run as the solver: multiply-adds in registers, and
 // bytes streamed through memory that no cache holds, on pages as large as the solver's.
 
-#if defined(__x86_64__) && !defined(__clang__)
-#define WIDEST_OF_THIS_MACHINE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define WIDEST_OF_THIS_MACHINE
-#endif
-
 namespace {
 
 constexpr std::size_t rounds = 1 << 14;
 
 using Array = mpm::peak::LargeArray<double>;
 
-/// rounds x sums multiply-adds, none waiting for another of the same round. Returns a number that depends on
-/// all.
-template <std::size_t sums>
+struct TwoLanes {
+  using Vector = double __attribute__((vector_size(16)));
+};
+struct FourLanes {
+  using Vector = double __attribute__((vector_size(32)));
+};
+struct EightLanes {
+  using Vector = double __attribute__((vector_size(64)));
+};
+
+/// rounds x registers x lanes multiply-adds, none waiting for another of the same round. Two pipelines of
+/// four cycles' latency need eight registers of independent sums, and those of SSE2 and AVX2 are sixteen.
+/// Returns a number that depends on all.
+constexpr std::size_t registers = 12;
+template <class Lanes>
 [[gnu::always_inline]] inline double multiply_add(double factor, double term) {
-  double sum[sums];
-  for (double& s : sum) s = term;
+  using Vector = typename Lanes::Vector;
+  const Vector factors = factor - Vector{}, terms = term - Vector{};
+  Vector sum[registers];
+  for (Vector& s : sum) s = terms;
   for (std::size_t round = 0; round < rounds; ++round)
-#pragma GCC unroll 96
-    for (std::size_t i = 0; i < sums; ++i) sum[i] = sum[i] * factor + term;
+    for (Vector& s : sum) s = s * factors + terms;
   double total = 0;
-  for (const double s : sum) total += s;
+  for (const Vector& s : sum)
+    for (std::size_t lane = 0; lane < sizeof s / sizeof(double); ++lane) total += s[lane];
   return total;
 }
 
-// Two pipelines of four cycles' latency need eight registers of independent sums, and those of SSE2 and AVX2
-// are sixteen: twelve registers each of two, four and eight lanes. Which is right, the machine says.
-WIDEST_OF_THIS_MACHINE double sums_24(double factor, double term) {
-  return multiply_add<24>(factor, term);
+double with_2_lanes(double factor, double term) {
+  return multiply_add<TwoLanes>(factor, term);
 }
-WIDEST_OF_THIS_MACHINE double sums_48(double factor, double term) {
-  return multiply_add<48>(factor, term);
+#ifdef __x86_64__
+[[gnu::target("avx2,fma")]] double with_4_lanes(double factor, double term) {
+  return multiply_add<FourLanes>(factor, term);
 }
-WIDEST_OF_THIS_MACHINE double sums_96(double factor, double term) {
-  return multiply_add<96>(factor, term);
+[[gnu::target("avx512f")]] double with_8_lanes(double factor, double term) {
+  return multiply_add<EightLanes>(factor, term);
 }
+#endif
 
 struct MultiplyAdd {
   double (*run)(double, double);
-  std::size_t sums;
+  std::size_t lanes;
 
-  [[nodiscard]] double seconds_a_sum() const {
+  [[nodiscard]] double seconds_a_lane() const {
     double best = 1;
     for (int repetition = 0; repetition < 5; ++repetition) {
       const auto begin = std::chrono::steady_clock::now();
       benchmark::DoNotOptimize(run(0.999, 1e-3));
       best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
-    return best / static_cast<double>(sums);
+    return best / static_cast<double>(lanes);
   }
 };
 
+/// Wider registers are not always faster: the machine says.
 MultiplyAdd fastest_multiply_add() {
-  const std::array<MultiplyAdd, 3> all{{{sums_24, 24}, {sums_48, 48}, {sums_96, 96}}};
+  std::vector<MultiplyAdd> all{{with_2_lanes, 2}};
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) all.push_back({with_4_lanes, 4});
+  if (__builtin_cpu_supports("avx512f")) all.push_back({with_8_lanes, 8});
+#endif
   return *std::min_element(all.begin(), all.end(), [](const MultiplyAdd& a, const MultiplyAdd& b) {
-    return a.seconds_a_sum() < b.seconds_a_sum();
+    return a.seconds_a_lane() < b.seconds_a_lane();
   });
 }
 
 /// y += factor x (BLAS axpy): reads both, writes one, and nothing is fetched only to be overwritten, so that
 /// the bytes that are counted are the bytes that move.
-WIDEST_OF_THIS_MACHINE void axpy(Array& y, const Array& x, double factor) {
+void axpy(Array& y, const Array& x, double factor) {
   double* to = y.data();
   const double* from = x.data();
   for (std::size_t i = 0; i < y.size(); ++i) to[i] += factor * from[i];
@@ -86,8 +98,9 @@ void peak_arithmetic(benchmark::State& state) {
     benchmark::DoNotOptimize(factor);
     benchmark::DoNotOptimize(fastest.run(factor, 1e-3));
   }
-  state.counters["operations"] = benchmark::Counter(2.0 * static_cast<double>(fastest.sums * rounds),
-                                                    benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["operations"] =
+      benchmark::Counter(2.0 * static_cast<double>(fastest.lanes * registers * rounds),
+                         benchmark::Counter::kIsIterationInvariantRate);
 }
 
 /// Argument: MiB of both arrays.
