@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -19,21 +20,35 @@ struct LargePages {
   template <class U>
   LargePages(const LargePages<U>&) {}
 
-  static std::align_val_t alignment(std::size_t n) {
-    return std::align_val_t{n * sizeof(T) < page ? alignof(T) : page};
-  }
   T* allocate(std::size_t n) {
-    void* memory = ::operator new(n * sizeof(T), alignment(n));
-#ifdef MADV_HUGEPAGE
-    if (n * sizeof(T) >= page) madvise(memory, n * sizeof(T), MADV_HUGEPAGE);
-#endif
-    return static_cast<T*>(memory);
+    const std::size_t bytes = n * sizeof(T);
+    if (bytes < page) return static_cast<T*>(::operator new (bytes, std::align_val_t{alignof(T)}));
+    return static_cast<T*>(map(whole_pages(bytes)));
   }
   void deallocate(T* memory, std::size_t n) {
-    ::operator delete(memory, alignment(n));
+    const std::size_t bytes = n * sizeof(T);
+    if (bytes < page) return ::operator delete (memory, std::align_val_t{alignof(T)});
+    munmap(memory, whole_pages(bytes));
   }
-  friend bool operator==(LargePages, LargePages) {
-    return true;
+  friend bool operator==(LargePages, LargePages) { return true; }
+
+ private:
+  static std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * page; }
+
+  /// Straight from the system: what a heap hands out again is on the small pages that it had before.
+  static void* map(std::size_t bytes) {
+    void* const mapped =
+        mmap(nullptr, bytes + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (mapped == MAP_FAILED) throw std::bad_alloc();
+    char* const begin = static_cast<char*>(mapped);
+    const std::size_t before =
+        whole_pages(reinterpret_cast<std::uintptr_t>(begin)) - reinterpret_cast<std::uintptr_t>(begin);
+    if (before > 0) munmap(begin, before);
+    munmap(begin + before + bytes, page - before);
+#ifdef MADV_HUGEPAGE
+    madvise(begin + before, bytes, MADV_HUGEPAGE);
+#endif
+    return begin + before;
   }
 };
 
