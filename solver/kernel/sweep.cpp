@@ -11,9 +11,11 @@ constexpr int cells_at_a_time = 512;
 /// From the cells that the first pass visits to those that are fetched meanwhile: more than it advances at a
 /// time, by several hundred memory accesses.
 constexpr int cells_ahead = 640;
-/// A segment is at least this long, in cells and in rows beside what a cut on one side of it takes: enough
-/// that the cuts, which are fetched twice, do not count.
-constexpr int cells_of_segment = 8192, cuts_of_segment = 4;
+/// Nobody fetches ahead what lies at a cut, and a segment fetches it again: there are as many segments as
+/// their length allows, counted in this many cells, so that the longer a grid, the less its cuts cost. In
+/// rows, a segment takes at least so many times what a cut takes on one side of it.
+constexpr long cells_of_segment = 8192;
+constexpr int cuts_of_segment = 4;
 
 /// Vectors of the widest registers: cells are visited, and nodes added to, in whole vectors.
 constexpr int widest = 8;
@@ -32,7 +34,7 @@ Sweep::Sweep(const Lines& lines, int passes)
     return;
   }
   int count = 1;
-  while (2 * count * cells_of_segment <= cells && 2 * count * shortest <= rows) count *= 2;
+  while (4 * count * count * cells_of_segment <= cells && 2 * count * shortest <= rows) count *= 2;
   if (lines.is_periodic) cuts_.push_back(closing_cut());
   for (int k = 0; k < count; ++k) {
     const int begin = static_cast<int>(static_cast<long>(rows) * k / count);
