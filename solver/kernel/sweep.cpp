@@ -11,10 +11,10 @@ constexpr int cells_at_a_time = 512;
 /// From the cells that the first pass visits to those that are fetched meanwhile: more than it advances at a
 /// time, by several hundred memory accesses.
 constexpr int cells_ahead = 640;
-/// Nobody fetches ahead what lies at a cut, and a segment fetches it again: there are as many segments as
-/// their length allows, counted in this many cells, so that the longer a grid, the less its cuts cost. In
-/// rows, a segment takes at least so many times what a cut takes on one side of it.
-constexpr long cells_of_segment = 8192;
+/// What lies at a cut is visited in short parts and fetched twice: the longer a grid, the longer its
+/// segments. So many cells allow two segments, 4 times as many 4. In rows, a segment takes at least so many
+/// times what a cut takes on one side of it.
+constexpr long cells_of_two_segments = 8192;
 constexpr int cuts_of_segment = 4;
 
 /// Vectors of the widest registers: cells are visited, and nodes added to, in whole vectors.
@@ -34,12 +34,12 @@ Sweep::Sweep(const Lines& lines, int passes)
     return;
   }
   int count = 1;
-  while (4 * count * count * cells_of_segment <= cells && 2 * count * shortest <= rows) count *= 2;
+  while (count * count * cells_of_two_segments <= cells && 2 * count * shortest <= rows) count *= 2;
   if (lines.is_periodic) cuts_.push_back(closing_cut());
   for (int k = 0; k < count; ++k) {
     const int begin = static_cast<int>(static_cast<long>(rows) * k / count);
     const int end = static_cast<int>(static_cast<long>(rows) * (k + 1) / count);
-    if (k > 0) cuts_.push_back(inner_cut(begin));
+    if (k > 0) cuts_.push_back(inner_cut(begin, end));
     segments_.push_back(
         segment({begin, end, k > 0 || lines.is_periodic, k + 1 < count || lines.is_periodic}));
   }
@@ -56,12 +56,14 @@ Part Sweep::whole(const Lines& lines) {
   return {nodes, {0, lines.rows}, nodes, 0};
 }
 
-/// Around the first nodes of a row inside the grid.
-Sweep::Tasks Sweep::inner_cut(int row) const {
+/// Around the first nodes of a row inside the grid; meanwhile what lies around `next` is fetched.
+Sweep::Tasks Sweep::inner_cut(int row, int next) const {
   Tasks tasks;
   for (int pass = 0; pass < passes_; ++pass) {
     const int from = row - lead(pass), to = row + lead(pass);
-    tasks.push_back({pass, {{from, to + reach_}, {from, to}, {from + reach_, to}}});
+    Part part{{from, to + reach_}, {from, to}, {from + reach_, to}};
+    if (next < lines_.rows) part.ahead = (next - row) * lines_.stride;
+    tasks.push_back({pass, part});
   }
   return tasks;
 }

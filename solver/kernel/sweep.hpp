@@ -68,7 +68,7 @@ class Sweep {
     bool cut_at_begin, cut_at_end;  ///< whether a trapezoid stands there
   };
   [[nodiscard]] int lead(int pass) const { return (passes_ - pass) * reach_; }
-  [[nodiscard]] Tasks inner_cut(int row) const;
+  [[nodiscard]] Tasks inner_cut(int row, int next) const;
   [[nodiscard]] Tasks closing_cut() const;
   [[nodiscard]] Tasks segment(const Ends& ends) const;
 

@@ -187,7 +187,7 @@ namespace {
 
 /// Large enough to be swept in two segments, 30 cells along the lanes.
 Scene long_whirl(bool walls_along, bool walls_across) {
-  Scene scene = whirl(30, 1120);
+  Scene scene = whirl(30, 560);
   scene.particles_per_cell = {1, 1};
   scene.seeding.displacement = 0.4;
   if (walls_along) {
