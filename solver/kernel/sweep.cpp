@@ -14,7 +14,7 @@ constexpr int cells_ahead = 640;
 /// What lies at a cut is visited in short parts and fetched twice: the longer a grid, the longer its
 /// segments. So many cells allow two segments, 4 times as many 4. In rows, a segment takes at least so many
 /// times what a cut takes on one side of it.
-constexpr long cells_of_two_segments = 8192;
+constexpr long cells_of_two_segments = 4096;
 constexpr int cuts_of_segment = 4;
 
 /// Vectors of the widest registers: cells are visited, and nodes added to, in whole vectors.
