@@ -18,8 +18,10 @@ void Collector::ReportRuns(const std::vector<Run>& runs) {
     if (run.run_type == Run::RT_Aggregate && run.aggregate_name == "median") shown.push_back(run);
     if (run.run_type == Run::RT_Aggregate) continue;
     if (run.repetitions == 1) shown.push_back(run);
+    auto name = run.run_name;
+    name.repetitions.clear();  // how often something was measured is not what was measured
     for (const auto& [counter, value] : run.counters)
-      if (value.flags & benchmark::Counter::kIsRate) counters_[run.run_name.str()][counter].push_back(value);
+      if (value.flags & benchmark::Counter::kIsRate) counters_[name.str()][counter].push_back(value);
   }
   if (!shown.empty()) ConsoleReporter::ReportRuns(shown);
 }
