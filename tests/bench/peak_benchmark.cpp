@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <vector>
 
 #define MPM_ISA peak
 #include "solver/kernel/storage.hpp"
