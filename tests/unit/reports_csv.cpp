@@ -12,6 +12,7 @@
 #include "reports/io_error.hpp"
 #include "reports/result_files.hpp"
 #include "tests/catch.hpp"
+#include "tests/scratch_directory.hpp"
 #include "tests/unit/reports_sample.hpp"
 
 using namespace reports;
@@ -54,7 +55,7 @@ class FileSizeLimit {
 }  // namespace
 
 TEST_CASE("every table survives writing and reading", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   const double third = 0.1 + 0.2, tiny = std::numeric_limits<double>::denorm_min();
   Results out;
   out.studies = {{"s", "a \"quoted\", title", " outer blanks ", "line one\nline two\r\n\"three\""},
@@ -125,7 +126,7 @@ TEST_CASE("every table survives writing and reading", "[reports]") {
   CHECK(in.scores[0].thresholds == "so");
 
   // Every field, also those not named above: a second round must give the same bytes.
-  TemporaryDirectory again;
+  ScratchDirectory again;
   write_results(again.path(), in);
   for (const char* name :
        {"studies", "runs", "errors", "levels", "orders", "checks", "timing", "figures", "scoreboard"}) {
@@ -135,7 +136,7 @@ TEST_CASE("every table survives writing and reading", "[reports]") {
 }
 
 TEST_CASE("profiles and histories survive writing and reading", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   write_profile(dir.path(), "r", {{0.1, "exact", 1, 2, not_a_number, -0.0, 1.0 / 3, 4}});
   const auto profile = read_profile(dir.path(), "r");
   REQUIRE(profile.size() == 1);
@@ -159,7 +160,7 @@ TEST_CASE("profiles and histories survive writing and reading", "[reports]") {
 }
 
 TEST_CASE("the columns are those that the README names", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   write_results(dir.path(), {});
   CHECK(read_file(dir / "runs.csv") ==
         "run,study,scene,fluid,basis,transfer,stepping,reset,cells,particles,dt,steps,status\n");
@@ -171,7 +172,7 @@ TEST_CASE("the columns are those that the README names", "[reports]") {
 }
 
 TEST_CASE("columns may come in any order and there may be more of them", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   write_results(dir.path(), {});
   write_file(dir / "timing.csv",
              "machine,wall_s,run,repetitions,source,spread,particle_steps_per_s\r\n"
@@ -188,7 +189,7 @@ TEST_CASE("columns may come in any order and there may be more of them", "[repor
 }
 
 TEST_CASE("a bad file is named with line and column", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   write_results(dir.path(), sample_results());
   const std::string header = "study,check,observed,lower,upper,unit,verdict,reason\n";
   const auto reading = [&](const std::string& content) {
@@ -219,7 +220,7 @@ TEST_CASE("a bad file is named with line and column", "[reports]") {
 }
 
 TEST_CASE("names that would lead out of the directory are refused", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   for (const char* name :
        {"", ".", "..", "../x", "a/b", "/etc/passwd", "a b", "x.history", "x.state", "a\nb", "ü", ".hidden"}) {
     CHECK_FALSE(is_plain_name(name));
@@ -234,7 +235,7 @@ TEST_CASE("names that would lead out of the directory are refused", "[reports]")
 }
 
 TEST_CASE("a file is written whole or not at all", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   SECTION("over an old one") {
     write_file(dir / "f", "old");
     write_file(dir / "f", "new");
@@ -263,7 +264,7 @@ TEST_CASE("a file is written whole or not at all", "[reports]") {
 }
 
 TEST_CASE("a directory that cannot be made is named", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   ensure_directory(dir / "a/b/c");
   ensure_directory(dir / "a/b/c");
   CHECK(std::filesystem::is_directory(dir / "a/b/c"));

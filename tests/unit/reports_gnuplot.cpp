@@ -6,6 +6,7 @@
 #include "reports/figure_script.hpp"
 #include "reports/gnuplot.hpp"
 #include "tests/catch.hpp"
+#include "tests/scratch_directory.hpp"
 #include "tests/unit/reports_sample.hpp"
 
 using namespace reports;
@@ -14,7 +15,7 @@ TEST_CASE("text cannot leave its quotes in a gnuplot script", "[reports]") {
   CHECK(gnuplot_text("it's `x` \\n @m") == "\"it\\047s \\140x\\140 \\134n \\100m\"");
   CHECK(gnuplot_text("a\nb\t\"") == "\"a\\nb \\042\"");
   if (!Gnuplot().available()) return;
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   for (const std::string evil :
        {"'; system('touch pwned'); print '`touch pwned`$(touch pwned)\"",
         "\"; system(\"touch pwned\"); print \"", "`touch pwned`", "\\\"; !touch pwned",
@@ -38,7 +39,7 @@ TEST_CASE("drawn together or alone, figures are the same; one that fails takes n
     script.line({{0, 0}, {1, 1}}, curve_colour(0), name);
     drawings.push_back({name, script.text(name)});
   }
-  TemporaryDirectory alone, together, flawed;
+  ScratchDirectory alone, together, flawed;
   for (const Drawing& drawing : drawings) CHECK(Gnuplot().draw(alone.path(), drawing) == "");
   CHECK(Gnuplot().draw(together.path(), drawings, 2) == std::vector<std::string>(5));
   drawings[1].script = "this is no command\n" + drawings[1].script;

@@ -19,6 +19,7 @@
 #include "reports/report_markdown.hpp"
 #include "reports/result_files.hpp"
 #include "tests/catch.hpp"
+#include "tests/scratch_directory.hpp"
 #include "tests/unit/reports_sample.hpp"
 
 using namespace reports;
@@ -27,7 +28,7 @@ namespace {
 
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-std::map<std::string, std::string> content_of(const std::filesystem::path& dir) {
+std::map<std::string, std::string> files_of(const std::filesystem::path& dir) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(dir)) {
     if (entry.is_regular_file())
@@ -68,7 +69,7 @@ bool gnuplot_is_here() {
 }  // namespace
 
 TEST_CASE("a report without gnuplot is complete but for the figures", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   write_sample(dir.path());
   const EnvironmentVariable none("MPM_GNUPLOT", "/nonexistent/gnuplot");
   const ReportOutcome outcome = write_report(dir.path());
@@ -85,7 +86,7 @@ TEST_CASE("a report without gnuplot is complete but for the figures", "[reports]
 }
 
 TEST_CASE("a gnuplot that fails is reported once with what it said", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   write_sample(dir.path());
   write_file(dir / "broken", "#!/bin/sh\necho 'no terminal today' >&2\nexit 3\n");
   std::filesystem::permissions(dir / "broken", std::filesystem::perms::owner_all);
@@ -98,17 +99,17 @@ TEST_CASE("a gnuplot that fails is reported once with what it said", "[reports]"
 
 TEST_CASE("the same tables give the same bytes", "[reports]") {
   if (!gnuplot_is_here()) WARN("gnuplot is not installed: the images are not compared");
-  TemporaryDirectory one, two;
+  ScratchDirectory one, two;
   write_sample(one.path());
   const ReportOutcome outcome = write_report(one.path());
   if (gnuplot_is_here()) CHECK(outcome.warnings.empty());
-  const auto first = content_of(one.path());
+  const auto first = files_of(one.path());
   write_report(one.path());
-  CHECK(content_of(one.path()) == first);
+  CHECK(files_of(one.path()) == first);
   // Elsewhere and from nothing, so that no image can be a left-over.
   write_sample(two.path());
   write_report(two.path());
-  CHECK(content_of(two.path()) == first);
+  CHECK(files_of(two.path()) == first);
   for (const auto& [name, content] : first) CHECK(name.find(".part") == name.npos);
   if (gnuplot_is_here()) {
     CHECK(first.count("figures/poiseuille-profiles.svg") == 1);
@@ -119,15 +120,15 @@ TEST_CASE("the same tables give the same bytes", "[reports]") {
 
 TEST_CASE("a changed table redraws its figure and no other", "[reports]") {
   if (!gnuplot_is_here()) return;
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   write_sample(dir.path());
   write_report(dir.path());
-  const auto before = content_of(dir.path());
+  const auto before = files_of(dir.path());
   Results results = sample_results();
   for (TimingRecord& timing : results.timings) timing.wall_s *= 3;
   write_results(dir.path(), results);
   write_report(dir.path());
-  const auto after = content_of(dir.path());
+  const auto after = files_of(dir.path());
   CHECK(after.at("figures/work-precision.svg") != before.at("figures/work-precision.svg"));
   CHECK(after.at("figures/poiseuille-order.svg") == before.at("figures/poiseuille-order.svg"));
 }
@@ -153,7 +154,7 @@ TEST_CASE("failures come first and texts are literal", "[reports]") {
     CHECK_THAT(text, contains("&lt;4 nodes&gt;"));
   }
   SECTION("html") {
-    TemporaryDirectory dir;
+    ScratchDirectory dir;
     write_sample(dir.path());
     const EnvironmentVariable none("MPM_GNUPLOT", "/nonexistent/gnuplot");
     write_report(dir.path());
@@ -192,7 +193,7 @@ TEST_CASE("a verdict is not believed against its numbers", "[reports]") {
   CHECK_FALSE(passed(nothing));
   CHECK(verdict_line(nothing) == "FAIL: no check was made");
 
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   Results results;
   results.checks = {{"s", "liar", 2, 0, 1, "", "pass", "r"}};
   write_results(dir.path(), results);
@@ -231,7 +232,7 @@ TEST_CASE("rates stand beside errors, the first one is empty", "[reports]") {
 }
 
 TEST_CASE("figures refuse what they cannot draw", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   write_sample(dir.path());
   Results results = sample_results();
   FigureRecord record = results.figures[0];
@@ -251,7 +252,7 @@ TEST_CASE("figures refuse what they cannot draw", "[reports]") {
 }
 
 TEST_CASE("a profile shows one column of a full run", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   write_sample(dir.path());
   const Results results = sample_results();
   FigureRecord record = results.figures[0];
@@ -280,7 +281,7 @@ TEST_CASE("wrapping, thinning, encoding", "[reports]") {
 }
 
 TEST_CASE("provenance survives writing and reading", "[reports]") {
-  TemporaryDirectory dir;
+  ScratchDirectory dir;
   CHECK_FALSE(read_provenance(dir.path()).has_value());
   Provenance out;
   out.build = {"1.2", "abc", "cc \"9\"", "-O3", "Release"};

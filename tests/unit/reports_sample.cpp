@@ -1,12 +1,10 @@
 #include "tests/unit/reports_sample.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <stdexcept>
 
 #include "reports/provenance.hpp"
 #include "reports/result_files.hpp"
@@ -161,17 +159,6 @@ void write_sample(const std::filesystem::path& dir) {
   provenance.command = "mpm-verify run --suite full --out \"results\"";
   provenance.started = "2026-01-02T03:04:05Z";
   write_provenance(dir, provenance);
-}
-
-TemporaryDirectory::TemporaryDirectory() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "mpm-reports-XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary directory");
-  path_ = pattern;
-}
-
-TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 EnvironmentVariable::EnvironmentVariable(const char* name, const std::string& value) : name_(name) {

@@ -13,20 +13,6 @@ reports::Results sample_results();
 /// Write sample_results() with profiles, histories and provenance into `dir`.
 void write_sample(const std::filesystem::path& dir);
 
-/// A directory of its own that vanishes with the object.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory();
-  ~TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// Sets an environment variable for as long as it lives.
 class EnvironmentVariable {
  public:

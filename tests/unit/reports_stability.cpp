@@ -5,6 +5,7 @@
 #include "reports/html_stability.hpp"
 #include "reports/result_files.hpp"
 #include "tests/catch.hpp"
+#include "tests/scratch_directory.hpp"
 #include "tests/unit/reports_sample.hpp"
 
 using namespace reports;
@@ -50,7 +51,7 @@ Results limits() {
 }  // namespace
 
 TEST_CASE("stability limits survive writing and reading", "[reports]") {
-  const TemporaryDirectory dir;
+  const ScratchDirectory dir;
   const Results written = limits();
   write_results(dir.path(), written);
   const Results read = read_results(dir.path());
