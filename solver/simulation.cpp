@@ -1,8 +1,8 @@
 #include "solver/simulation.hpp"
 
-#include "solver/axis.hpp"
+#include "solver/grid/axis.hpp"
 #include "solver/kernel/isa.hpp"
-#include "solver/make_solver.hpp"
+#include "solver/table/make_solver.hpp"
 
 namespace mpm {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/particles.hpp"
-#include "solver/scene.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace mpm {
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "build_info.hpp"
-#include "reports/io_error.hpp"
+#include "reports/files/io_error.hpp"
 #include "solver/kernel/isa.hpp"
-#include "solver/scene.hpp"
+#include "solver/scene/scene.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/config/config_error.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <mutex>
 
-#include "solver/scene.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace mpm {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <memory>
 
-#include "solver/pressure.hpp"
-#include "solver/rheology.hpp"
+#include "solver/material/pressure.hpp"
+#include "solver/material/rheology.hpp"
 
 namespace mpm {
 

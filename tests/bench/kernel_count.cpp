@@ -2,7 +2,7 @@
 #define MPM_ISA counted
 #define MPM_LANES 1
 #define MPM_COUNT_OPERATIONS
-#include "solver/axis.hpp"
+#include "solver/grid/axis.hpp"
 #include "solver/kernel/lane_kernel.hpp"
 #include "solver/kernel/sweep.hpp"
 #include "tests/bench/work_count.hpp"

@@ -11,7 +11,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "reports/compare.hpp"
+#include "reports/compare/compare.hpp"
 #include "tests/bench/plain_loop.hpp"
 
 namespace bench {

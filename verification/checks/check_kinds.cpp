@@ -10,8 +10,8 @@
 #include "verification/checks/comparison.hpp"
 #include "verification/checks/outcome_check.hpp"
 #include "verification/checks/stability_checks.hpp"
-#include "verification/study/measures.hpp"
-#include "verification/study/scheme_matrix.hpp"
+#include "verification/runs/measures.hpp"
+#include "verification/runs/scheme_matrix.hpp"
 
 namespace verification {
 namespace {

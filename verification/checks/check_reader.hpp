@@ -1,6 +1,6 @@
 #pragma once
 
-#include "verification/study/run_data.hpp"
+#include "verification/runs/run_data.hpp"
 
 namespace verification {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "verification/study/measures.hpp"
+#include "verification/runs/measures.hpp"
 
 namespace verification {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "verification/study/scores.hpp"
+#include "verification/runs/scores.hpp"
 
 namespace verification {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "verification/checks/oscillation.hpp"
-#include "verification/study/measures.hpp"
+#include "verification/runs/measures.hpp"
 
 namespace verification {
 namespace {

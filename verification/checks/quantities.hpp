@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "verification/study/run_data.hpp"
+#include "verification/runs/run_data.hpp"
 
 namespace verification {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "reports/compare.hpp"
+#include "reports/compare/compare.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/terminal.hpp"
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "verification/commands/commands.hpp"
-#include "verification/study/scoreboard_reader.hpp"
-#include "verification/study/study_reader.hpp"
+#include "verification/reading/scoreboard_reader.hpp"
+#include "verification/reading/study_reader.hpp"
 
 namespace verification {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "build_info.hpp"
-#include "reports/provenance.hpp"
+#include "reports/records/provenance.hpp"
 #include "solver/kernel/isa.hpp"
 
 namespace verification {

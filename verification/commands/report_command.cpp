@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "reports/report.hpp"
+#include "reports/pages/report.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/flows/reference_store.hpp"
 

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <thread>
 
-#include "reports/atomic_file.hpp"
-#include "reports/console_table.hpp"
-#include "reports/report.hpp"
-#include "reports/scoreboard.hpp"
+#include "reports/files/atomic_file.hpp"
+#include "reports/pages/console_table.hpp"
+#include "reports/pages/report.hpp"
+#include "reports/records/scoreboard.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/provenance_of.hpp"
 #include "verification/commands/terminal.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/flows/reference_store.hpp"
-#include "verification/study/interruption.hpp"
-#include "verification/study/scoreboard_reader.hpp"
-#include "verification/study/study_reader.hpp"
+#include "verification/reading/scoreboard_reader.hpp"
+#include "verification/reading/study_reader.hpp"
+#include "verification/runs/interruption.hpp"
 #include "verification/suite/run_suite.hpp"
 
 namespace verification {

@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
-#include "reports/atomic_file.hpp"
-#include "reports/report.hpp"
-#include "reports/result_files.hpp"
+#include "reports/files/atomic_file.hpp"
+#include "reports/pages/report.hpp"
+#include "reports/records/result_files.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/provenance_of.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/flows/reference_store.hpp"
-#include "verification/study/measures.hpp"
-#include "verification/study/run_simulation.hpp"
+#include "verification/runs/measures.hpp"
+#include "verification/runs/run_simulation.hpp"
 
 namespace verification {
 namespace {

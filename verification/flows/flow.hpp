@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/scene.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace verification {
 

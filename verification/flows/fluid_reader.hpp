@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "reference/flow_curve.hpp"
-#include "solver/scene.hpp"
+#include "reference/channel/flow_curve.hpp"
+#include "solver/scene/scene.hpp"
 #include "verification/config/toml_table.hpp"
 
 namespace verification {

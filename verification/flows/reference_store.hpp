@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "reference/channel_factory.hpp"
+#include "reference/channel/channel_factory.hpp"
 
 namespace verification {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "solver/scheme.hpp"
+#include "solver/scene/scheme.hpp"
 #include "verification/stability/bloch_symbols.hpp"
 
 namespace verification {

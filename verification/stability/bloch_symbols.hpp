@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/scheme.hpp"
+#include "solver/scene/scheme.hpp"
 
 namespace verification {
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "verification/config/config_error.hpp"
-#include "verification/study/scheme_matrix.hpp"
+#include "verification/scene/matrix.hpp"
 
 namespace verification {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/records.hpp"
+#include "reports/records/records.hpp"
 #include "verification/config/toml_table.hpp"
 #include "verification/stability/measured_limit.hpp"
 

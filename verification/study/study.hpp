@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "reports/records.hpp"
-#include "verification/config/scene_config.hpp"
+#include "reports/records/records.hpp"
+#include "verification/scene/scene_config.hpp"
 #include "verification/stability/stability_plan.hpp"
 #include "verification/study/scoreboard.hpp"
 

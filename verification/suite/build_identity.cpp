@@ -4,10 +4,10 @@
 #include <link.h>
 #include <sys/stat.h>
 
-#include "reports/atomic_file.hpp"
-#include "reports/content_hash.hpp"
-#include "reports/io_error.hpp"
-#include "reports/provenance.hpp"
+#include "reports/files/atomic_file.hpp"
+#include "reports/files/content_hash.hpp"
+#include "reports/files/io_error.hpp"
+#include "reports/records/provenance.hpp"
 
 namespace verification {
 namespace {

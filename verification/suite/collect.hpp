@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "verification/study/run_data.hpp"
+#include "verification/runs/run_data.hpp"
 
 namespace verification {
 

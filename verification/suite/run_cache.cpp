@@ -7,9 +7,9 @@
 #include <system_error>
 #include <vector>
 
-#include "reports/atomic_file.hpp"
-#include "reports/content_hash.hpp"
-#include "reports/io_error.hpp"
+#include "reports/files/atomic_file.hpp"
+#include "reports/files/content_hash.hpp"
+#include "reports/files/io_error.hpp"
 #include "solver/kernel/isa.hpp"
 #include "verification/suite/build_identity.hpp"
 #include "verification/suite/run_entry.hpp"

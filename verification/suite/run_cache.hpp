@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "verification/study/run_data.hpp"
+#include "verification/runs/run_data.hpp"
 
 namespace verification {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "verification/study/run_data.hpp"
+#include "verification/runs/run_data.hpp"
 #include "verification/suite/run_cache.hpp"
 
 namespace verification {

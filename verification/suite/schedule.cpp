@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "verification/study/run_simulation.hpp"
+#include "verification/runs/run_simulation.hpp"
 
 namespace verification {
 

@@ -1,0 +1,121 @@
+#include "reference/channel/steady_channel.hpp"
+
+#include <gsl/gsl_integration.h>
+#include <gsl/gsl_roots.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "reference/gsl_quiet.hpp"
+#include "reference/require.hpp"
+
+namespace reference {
+namespace {
+
+/// Integral of the rate over stresses from - d to + d around `middle`, divided by 2 d: Gauss, 24 points. Used
+/// for d <= 0.2 |middle|, where an integrand analytic but for tau = 0 is resolved to (5 + sqrt 24)^-48 =
+/// 1e-47.
+double mean_rate(const FlowCurve& curve, double middle, double d) {
+  static const std::unique_ptr<gsl_integration_glfixed_table, decltype(&gsl_integration_glfixed_table_free)>
+      table(gsl_integration_glfixed_table_alloc(24), &gsl_integration_glfixed_table_free);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 24; ++i) {
+    double x = 0.0, weight = 0.0;
+    gsl_integration_glfixed_point(-1.0, 1.0, i, &x, &weight, table.get());
+    sum += 0.5 * weight * curve.rate(middle + d * x);
+  }
+  return sum;
+}
+
+}  // namespace
+
+SteadyChannel::SteadyChannel(double height, double body_acceleration, double plate_velocity,
+                             const FlowCurve& curve)
+    : height_(height), body_acceleration_(body_acceleration), plate_velocity_(plate_velocity), curve_(curve) {
+  require(std::isfinite(height) && height > 0.0, "steady channel: the height must be positive and finite");
+  require(std::isfinite(body_acceleration), "steady channel: the body acceleration must be finite");
+  require(std::isfinite(plate_velocity), "steady channel: the plate velocity must be finite");
+  wall_stress_ = 0.5 * body_acceleration * height;
+  if (plate_velocity != 0.0) {
+    curve_.require_monotone(std::abs(plate_velocity) / height);
+    wall_stress_ = body_acceleration == 0.0 ? curve_.stress(plate_velocity / height) : find_wall_stress();
+  }
+  curve_.require_monotone(largest_rate());
+}
+
+double SteadyChannel::stress(double y) const {
+  require(y >= 0.0 && y <= height_, "channel: y must lie between the plates");
+  return wall_stress_ - body_acceleration_ * y;
+}
+
+double SteadyChannel::integrated_rate(double wall_stress, double y) const {
+  const double change = body_acceleration_ * y, middle = wall_stress - 0.5 * change;
+  if (std::abs(0.5 * change) <= 0.2 * std::abs(middle)) return y * mean_rate(curve_, middle, 0.5 * change);
+  return (curve_.complementary_potential(wall_stress) -
+          curve_.complementary_potential(wall_stress - change)) /
+         body_acceleration_;
+}
+
+double SteadyChannel::find_wall_stress() const {
+  quiet_gsl();
+  struct Gap {
+    const SteadyChannel& channel;
+    static double excess(double wall_stress, void* self) {
+      const SteadyChannel& c = static_cast<const Gap*>(self)->channel;
+      return c.integrated_rate(wall_stress, c.height_) - c.plate_velocity_;
+    }
+  };
+  Gap gap{*this};
+  // The mean rate V0/H lies between the rates at the two plates, so its stress lies between the plates'
+  // stresses.
+  const double mean = curve_.stress(plate_velocity_ / height_), span = body_acceleration_ * height_;
+  double low = std::min(mean, mean + span), high = std::max(mean, mean + span);
+  if (Gap::excess(low, &gap) >= 0.0) return low;
+  if (Gap::excess(high, &gap) <= 0.0) return high;
+  const std::unique_ptr<gsl_root_fsolver, decltype(&gsl_root_fsolver_free)> solver(
+      gsl_root_fsolver_alloc(gsl_root_fsolver_brent), &gsl_root_fsolver_free);
+  gsl_function f{&Gap::excess, &gap};
+  gsl_root_fsolver_set(solver.get(), &f, low, high);
+  for (int i = 0; i < 200; ++i) {
+    gsl_root_fsolver_iterate(solver.get());
+    low = gsl_root_fsolver_x_lower(solver.get());
+    high = gsl_root_fsolver_x_upper(solver.get());
+    if (high - low <= std::numeric_limits<double>::epsilon() * std::max(std::abs(low), std::abs(high))) break;
+  }
+  return gsl_root_fsolver_root(solver.get());
+}
+
+double SteadyChannel::velocity(double y) const {
+  require(y >= 0.0 && y <= height_, "channel: y must lie between the plates");
+  if (y == 0.0) return 0.0;
+  if (y == height_) return plate_velocity_;
+  if (plate_velocity_ == 0.0) y = std::min(y, height_ - y);  // both walls exactly alike
+  return integrated_rate(wall_stress_, y);
+}
+
+double SteadyChannel::maximum() const {
+  const double neutral =
+      body_acceleration_ == 0.0 ? -1.0 : wall_stress_ / body_acceleration_;  // where tau = 0
+  const double inside = neutral > 0.0 && neutral < height_ ? std::abs(velocity(neutral)) : 0.0;
+  return std::max(inside, std::abs(plate_velocity_));
+}
+
+double SteadyChannel::largest_rate() const {
+  return std::max(std::abs(gradient(0.0)), std::abs(gradient(height_)));
+}
+
+std::vector<double> SteadyChannel::linear_scheme_nodes(int cells) const {
+  require(cells >= 1, "steady channel: at least one cell is needed");
+  require(plate_velocity_ == 0.0, "steady channel: the node rule is for plates at rest");
+  const double h = height_ / cells;
+  std::vector<double> u(cells + 1, 0.0);
+  for (int j = 0; j < (cells + 1) / 2; ++j) {
+    u[j + 1] = u[j] + h * curve_.rate(body_acceleration_ * (0.5 * height_ - (j + 0.5) * h));
+  }
+  for (int j = 0; j <= cells / 2; ++j) u[cells - j] = u[j];
+  return u;
+}
+
+}  // namespace reference

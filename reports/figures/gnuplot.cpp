@@ -1,0 +1,227 @@
+#include "reports/figures/gnuplot.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "reports/figures/figure_cache.hpp"
+#include "reports/figures/for_each_index.hpp"
+#include "reports/files/atomic_file.hpp"
+#include "reports/files/io_error.hpp"
+
+namespace reports {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_executable(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
+}
+
+std::string find_program(const std::string& name) {
+  if (name.find('/') != std::string::npos) {
+    return is_executable(name) ? fs::absolute(name).string() : "";
+  }
+  const char* path = std::getenv("PATH");
+  std::string_view rest = path ? path : "/usr/local/bin:/usr/bin:/bin";
+  while (!rest.empty()) {
+    const std::size_t colon = rest.find(':');
+    const fs::path candidate = fs::path(rest.substr(0, colon)) / name;
+    if (candidate.is_absolute() && is_executable(candidate)) return candidate.string();
+    rest = colon == rest.npos ? "" : rest.substr(colon + 1);
+  }
+  return "";
+}
+
+struct Outcome {
+  int status = -1;        ///< exit status, 128 + signal, or -1 if it could not be started
+  std::string complaint;  ///< its standard error, or why it could not be started
+};
+
+// Start a program in `directory` without a shell and wait for it. Spawned, not forked: copying the pages of a
+// program that holds a suite's results takes as long as a figure.
+Outcome run_program(const std::string& program, const fs::path& directory,
+                    const std::vector<std::string>& arguments) {
+  std::vector<char*> argv{const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return {-1, std::strerror(errno)};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+  posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
+  pid_t child = 0;
+  const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    close(ends[0]);
+    close(ends[1]);
+    return {-1, std::strerror(error)};
+  }
+  close(ends[1]);
+  Outcome outcome;
+  char block[4096];
+  while (true) {
+    const ssize_t got = read(ends[0], block, sizeof block);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) break;
+    outcome.complaint.append(block, static_cast<std::size_t>(got));
+  }
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    if (errno != EINTR) return {-1, std::strerror(errno)};
+  }
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return outcome;
+}
+
+bool holds_exactly(const fs::path& path, const std::string& content) {
+  std::error_code error;
+  return fs::file_size(path, error) == content.size() && !error && read_file(path) == content;
+}
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (c != '\n' && c != '\t' && c != ' ') {
+      line += c;
+    } else if (!line.empty() && line.back() != ' ') {
+      line += ' ';
+    }
+  }
+  while (!line.empty() && line.back() == ' ') line.pop_back();
+  return line.size() > 400 ? line.substr(0, 400) + "..." : line;
+}
+
+/// The two images of a figure. Drawn under a name with ".part" behind it.
+struct Images {
+  Images(const fs::path& directory, const std::string& name)
+      : svg(directory / (name + ".svg")), png(directory / (name + ".png")) {}
+
+  void remove() const {
+    std::error_code error;
+    for (const fs::path* image : {&svg, &png}) fs::remove(*image, error);
+  }
+
+  /// Gives both their names, or leaves neither: whether both had been drawn.
+  [[nodiscard]] bool take_parts() const {
+    bool drawn = true;
+    std::error_code error;
+    for (const fs::path* image : {&svg, &png}) {
+      const fs::path part = image->string() + ".part";
+      if (drawn && fs::exists(part, error) && fs::file_size(part, error) > 0) {
+        fs::rename(part, *image, error);
+        drawn = !error;
+      } else {
+        drawn = false;
+      }
+      fs::remove(part, error);
+    }
+    if (!drawn) remove();
+    return drawn;
+  }
+
+  fs::path svg, png;
+};
+
+bool is_drawn(const fs::path& directory, const Drawing& drawing) {
+  const Images images(directory, drawing.name);
+  std::error_code error;
+  return holds_exactly(directory / (drawing.name + ".gp"), drawing.script) && fs::exists(images.svg, error) &&
+         fs::exists(images.png, error);
+}
+
+/// What gnuplot is given to draw a figure, whatever it has drawn before.
+std::vector<std::string> drawing_arguments(const Drawing& drawing) {
+  return {"-e", "reset session", "-e", "part = '.part'", drawing.name + ".gp"};
+}
+
+std::string draw_alone(const std::string& program, const fs::path& directory, const Drawing& drawing) {
+  const Outcome outcome = run_program(program, directory, drawing_arguments(drawing));
+  const Images images(directory, drawing.name);
+  if (images.take_parts() && outcome.status == 0) return "";
+  images.remove();
+  return fmt::format("{} failed on {} (status {}): {}", program,
+                     (directory / (drawing.name + ".gp")).string(), outcome.status,
+                     outcome.complaint.empty() ? "it wrote no image" : one_line(outcome.complaint));
+}
+
+}  // namespace
+
+std::string gnuplot_text(std::string_view text) {
+  // Octal escapes in double quotes. Single quotes would be more readable, but gnuplot loses its way in a text
+  // that begins with an escaped one.
+  static constexpr std::string_view special = "\"'`\\@$;#";
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '\n') {
+      quoted += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      quoted += ' ';
+    } else if (special.find(c) != special.npos) {
+      quoted += fmt::format("\\{:03o}", static_cast<unsigned>(c));
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+Gnuplot::Gnuplot(fs::path cache) : cache_(std::move(cache)) {
+  const char* named = std::getenv("MPM_GNUPLOT");
+  wanted_ = named && *named ? named : "gnuplot";
+  program_ = find_program(wanted_);
+}
+
+std::vector<std::string> Gnuplot::draw(const fs::path& directory, const std::vector<Drawing>& drawings,
+                                       int jobs) const {
+  const FigureCache cache(cache_, program_);
+  std::vector<std::string> problems(drawings.size());
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < drawings.size(); ++i) {
+    if (drawings[i].script.empty() || is_drawn(directory, drawings[i])) continue;
+    const Images images(directory, drawings[i].name);
+    // Images go first, so that an interruption cannot leave them beside a script that they were not drawn
+    // from.
+    images.remove();
+    write_file(directory / (drawings[i].name + ".gp"), drawings[i].script);
+    if (!available())
+      problems[i] = fmt::format("{} not found", wanted_);
+    else if (!cache.fetch(drawings[i].script, images.svg, images.png))
+      missing.push_back(i);
+  }
+
+  const std::size_t batches = std::min(missing.size(), static_cast<std::size_t>(std::max(1, jobs)));
+  for_each_index(batches, jobs, [&](std::size_t first) {
+    std::vector<std::string> arguments;
+    for (std::size_t k = first; k < missing.size(); k += batches)
+      for (const std::string& argument : drawing_arguments(drawings[missing[k]]))
+        arguments.push_back(argument);
+    // It stops at the first script that it cannot follow, and does not say which.
+    const bool all_drawn = run_program(program_, directory, arguments).status == 0;
+    for (std::size_t k = first; k < missing.size(); k += batches) {
+      const Drawing& drawing = drawings[missing[k]];
+      const Images images(directory, drawing.name);
+      if (!all_drawn || !images.take_parts()) problems[missing[k]] = draw_alone(program_, directory, drawing);
+      if (problems[missing[k]].empty()) cache.keep(drawing.script, images.svg, images.png);
+    }
+  });
+  return problems;
+}
+
+}  // namespace reports

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/files/atomic_file.hpp"
+#include "reports/records/records.hpp"
+
+// The files of a result directory. All functions throw IoError.
+namespace reports {
+
+/// Every table of `dir` (studies, runs, errors, levels, orders, checks, timing, figures); all must be there.
+/// Names of runs and figures become file names, so anything but a plain name is refused here.
+Results read_results(const std::filesystem::path& dir);
+void write_results(const std::filesystem::path& dir, const Results& results,
+                   Durability durability = Durability::Synced);
+
+/// Removes the tables and reports of an earlier suite, checks.csv first, and what an interrupted write left
+/// (*.tmp).
+void remove_tables(const std::filesystem::path& dir);
+
+/// profiles/<run>.csv. Files of runs are not flushed to disk (Durability::Unsynced), and not touched where
+/// the bytes are there.
+std::vector<ProfileRow> read_profile(const std::filesystem::path& dir, const std::string& run);
+void write_profile(const std::filesystem::path& dir, const std::string& run,
+                   const std::vector<ProfileRow>& rows);
+
+/// profiles/<run>.history.csv
+std::vector<HistoryRow> read_history(const std::filesystem::path& dir, const std::string& run);
+void write_history(const std::filesystem::path& dir, const std::string& run,
+                   const std::vector<HistoryRow>& rows);
+
+/// profiles/<run>.shear.csv
+std::vector<ShearRow> read_shear(const std::filesystem::path& dir, const std::string& run);
+void write_shear(const std::filesystem::path& dir, const std::string& run, const std::vector<ShearRow>& rows);
+
+/// profiles/<run>.state.csv
+std::vector<StateRow> read_state(const std::filesystem::path& dir, const std::string& run);
+void write_state(const std::filesystem::path& dir, const std::string& run, const std::vector<StateRow>& rows);
+
+/// True for a name that is safe as a file stem: letters, digits and . _ = -, neither empty nor starting with
+/// a dot, not ending in ".history", ".shear" or ".state" (those are other files), at most 200 characters.
+bool is_plain_name(const std::string& name);
+
+/// Returns `name`, or throws IoError if it is no plain name. `what` says whose name it is, e.g. "run".
+const std::string& require_plain_name(const char* what, const std::string& name);
+
+}  // namespace reports

@@ -1,0 +1,84 @@
+#include "solver/grid/tensor_mass.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "solver/scene/seeding.hpp"
+
+namespace mpm {
+namespace {
+
+/// integral of N_i N_j over an axis, by a Gauss rule that is exact for it.
+Eigen::MatrixXd mass_along(const Axis& axis) {
+  const CellPoints points = cell_points(Seeding::Rule::Gauss, axis.degree + 1);
+  const int support = axis.degree + 1;
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(axis.count(), axis.count());
+  std::vector<double> value(static_cast<std::size_t>(support));
+  for (int cell = 0; cell < axis.cells; ++cell)
+    for (std::size_t q = 0; q < points.position.size(); ++q) {
+      const double* c = axis.polynomials(cell);
+      for (int k = 0; k < support; ++k) {
+        double& sum = value[static_cast<std::size_t>(k)];
+        sum = 0;
+        for (int m = axis.degree; m >= 0; --m) sum = sum * points.position[q] + c[m * support + k];
+      }
+      for (int k = 0; k < support; ++k)
+        for (int l = 0; l < support; ++l)
+          mass(axis.function(cell + k), axis.function(cell + l)) += axis.h * points.weight[q] *
+                                                                    value[static_cast<std::size_t>(k)] *
+                                                                    value[static_cast<std::size_t>(l)];
+    }
+  return mass;
+}
+
+}  // namespace
+
+TensorMass::Factor::Factor(const Axis& axis) {
+  const Eigen::MatrixXd mass = mass_along(axis);
+  const Eigen::MatrixXd lower = mass.llt().matrixL();
+  for (int j = 0; j < mass.cols(); ++j) {
+    diagonal.push_back(mass(j, j));
+    inverse_pivot.push_back(1 / lower(j, j));
+    begin.push_back(static_cast<int>(row.size()));
+    for (int i = j + 1; i < mass.rows(); ++i)
+      if (lower(i, j) != 0) {  // the band, and the last rows where a periodic axis closes
+        row.push_back(i);
+        entry.push_back(lower(i, j));
+      }
+  }
+  begin.push_back(static_cast<int>(row.size()));
+}
+
+TensorMass::TensorMass(const Grid& grid) : x_(grid.x), y_(grid.y), transposed_(grid.size()) {}
+
+void TensorMass::solve_rows(const Factor& factor, double* rows, std::size_t width) {
+  using Row = Eigen::Map<Eigen::RowVectorXd>;
+  const auto at = [&](int i) {
+    return Row(rows + static_cast<std::size_t>(i) * width, static_cast<Eigen::Index>(width));
+  };
+  const int n = static_cast<int>(factor.inverse_pivot.size());
+  for (int j = 0; j < n; ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    at(j) *= factor.inverse_pivot[k];
+    for (int e = factor.begin[k]; e < factor.begin[k + 1]; ++e)
+      at(factor.row[static_cast<std::size_t>(e)]) -= factor.entry[static_cast<std::size_t>(e)] * at(j);
+  }
+  for (int j = n - 1; j >= 0; --j) {
+    const auto k = static_cast<std::size_t>(j);
+    for (int e = factor.begin[k]; e < factor.begin[k + 1]; ++e)
+      at(j) -= factor.entry[static_cast<std::size_t>(e)] * at(factor.row[static_cast<std::size_t>(e)]);
+    at(j) *= factor.inverse_pivot[k];
+  }
+}
+
+void TensorMass::solve(VectorField& field) {
+  const std::size_t nx = x_.diagonal.size(), ny = y_.diagonal.size();
+  solve_rows(y_, field.front().data(), 2 * nx);
+  for (std::size_t j = 0; j < ny; ++j)
+    for (std::size_t i = 0; i < nx; ++i) transposed_[i * ny + j] = field[j * nx + i];
+  solve_rows(x_, transposed_.front().data(), 2 * ny);
+  for (std::size_t j = 0; j < ny; ++j)
+    for (std::size_t i = 0; i < nx; ++i) field[j * nx + i] = transposed_[i * ny + j];
+}
+
+}  // namespace mpm

@@ -1,9 +1,0 @@
-#include "solver/solver_table.hpp"
-
-namespace mpm {
-
-std::unique_ptr<Simulation> make_cubic_solver(const Scene& scene, const Scheme& scheme, int threads) {
-  return make_solver_of_degree<3>(scene, scheme, threads);
-}
-
-}  // namespace mpm

@@ -1,0 +1,9 @@
+#include "solver/table/solver_table.hpp"
+
+namespace mpm {
+
+std::unique_ptr<Simulation> make_linear_solver(const Scene& scene, const Scheme& scheme, int threads) {
+  return make_solver_of_degree<1>(scene, scheme, threads);
+}
+
+}  // namespace mpm

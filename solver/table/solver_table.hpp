@@ -1,0 +1,45 @@
+#pragma once
+
+#include "solver/lanes/lane_solver.hpp"
+#include "solver/step/solver.hpp"
+#include "solver/table/make_solver.hpp"
+
+namespace mpm {
+
+/// Every transfer on one basis: on the vector kernels where they cover it.
+template <class Basis>
+std::unique_ptr<Simulation> make_solver_on(const Scene& scene, const Scheme& scheme, int threads) {
+  if (lanes_cover(scene, scheme)) {
+    const double flip = scheme.transfer == Scheme::Transfer::Flip  ? 1
+                        : scheme.transfer == Scheme::Transfer::Pic ? 0
+                                                                   : scheme.flip_fraction;
+    return std::make_unique<LaneSolver<Basis>>(scene, scheme.stepping, flip, threads);
+  }
+  const auto make = [&]<class Transfer>(const Transfer& transfer) -> std::unique_ptr<Simulation> {
+    return std::make_unique<Solver<Basis, Transfer>>(scene, scheme, transfer);
+  };
+  switch (scheme.transfer) {
+    case Scheme::Transfer::Flip:
+      return make(Flip{});
+    case Scheme::Transfer::Pic:
+      return make(Pic{});
+    case Scheme::Transfer::FlipBlend:
+      return make(FlipBlend{scheme.flip_fraction});
+    case Scheme::Transfer::Apic:
+      return make(Apic{});
+    case Scheme::Transfer::FullMass:
+      return make(FullMass{});
+  }
+  throw SceneError("a transfer has no solver");
+}
+
+/// B-splines of one degree: on the strip where the scene is one periodic cell wide, in two dimensions
+/// elsewhere.
+template <int degree>
+std::unique_ptr<Simulation> make_solver_of_degree(const Scene& scene, const Scheme& scheme, int threads) {
+  if (scene.periodic(0) && scene.cells[0] == 1)
+    return make_solver_on<StripBSpline<degree>>(scene, scheme, threads);
+  return make_solver_on<BSpline<degree>>(scene, scheme, threads);
+}
+
+}  // namespace mpm

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "reference/channel/channel_problem.hpp"
+#include "verification/flows/flow.hpp"
+#include "verification/flows/fluid_reader.hpp"
+
+namespace verification {
+
+/// A plane channel: fluid between a plate at rest at 0 and a plate at H that moves with V0 from t = 0, driven
+/// by a body acceleration F along the plates, from rest. Poiseuille is V0 = 0, Couette F = 0.
+struct ChannelParameters {
+  double height = 0;             ///< H [m]
+  double length = 0;             ///< L along the plates [m]; 0: square cells
+  int axis = 0;                  ///< direction of flow, 0 for x, 1 for y
+  double body_acceleration = 0;  ///< F [m/s2]
+  double plate_velocity = 0;     ///< V0 [m/s]
+  FluidConfig fluid;
+};
+
+class ChannelFlow final : public Flow {
+ public:
+  /// Throws std::invalid_argument for a drive or a flow curve that no steady flow exists for.
+  explicit ChannelFlow(const ChannelParameters& parameters);
+
+  [[nodiscard]] mpm::Scene scene(const Discretisation& discretisation) const override;
+  [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const override;
+  [[nodiscard]] std::optional<CostlyReference> costly_reference(
+      const std::vector<double>& times) const override;
+  [[nodiscard]] std::shared_ptr<const ExactField> exact_discrete(const Discretisation& discretisation,
+                                                                 double dt) const override;
+  [[nodiscard]] std::shared_ptr<const ExactField> steady_nodes(
+      const Discretisation& discretisation) const override;
+  [[nodiscard]] double velocity_scale() const override { return steady_maximum_; }
+  [[nodiscard]] bool has_shear_profile() const override { return true; }
+  [[nodiscard]] double steady_probe() const override { return steady_mid_height_; }
+  [[nodiscard]] Probe probe() const override;
+  [[nodiscard]] int across() const override { return 1 - parameters_.axis; }
+  [[nodiscard]] double length() const override { return parameters_.height; }
+  [[nodiscard]] double bias_unit(double cell_size) const override;
+
+ private:
+  [[nodiscard]] reference::ChannelProblem problem(const std::vector<double>& times) const;
+
+  ChannelParameters parameters_;
+  double steady_maximum_, steady_mid_height_;  // [m/s]
+};
+
+}  // namespace verification

@@ -1,0 +1,99 @@
+#include "verification/reading/figure_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace verification {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ";") + word;
+  return text;
+}
+
+void read_name(TomlTable& table, const Study& study, reports::FigureRecord& figure) {
+  figure.figure = study.name + "-" + table.text("name", figure.kind);
+  if (std::ranges::any_of(study.figures, [&](const auto& other) { return other.figure == figure.figure; }))
+    table.fail("name", "a second figure of this kind needs a name of its own");
+}
+
+/// Schemes, waves and motions of a map.
+void read_map(TomlTable& table, const Study& study, reports::FigureRecord& figure) {
+  if (study.stability.cases.empty()) table.fail("kind", "\"stability-map\" needs a [stability]");
+  figure.across = table.text("waves");
+  const auto motions = table.texts("motions");
+  const auto variants = table.has("variants") ? table.texts("variants") : study.variants;
+  for (const std::string& motion : motions)
+    for (const std::string& variant : variants)
+      if (std::ranges::none_of(study.stability.cases, [&](const StabilityCase& one) {
+            return one.name() == variant + "." + figure.across + "." + motion;
+          }))
+        table.fail("variants", "no limit of '" + variant + "' with these waves and motions is measured");
+  figure.runs = joined(variants);
+  figure.location = joined(motions);
+}
+
+}  // namespace
+
+reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
+  reports::FigureRecord figure;
+  figure.study = study.name;
+  figure.kind = table.text("kind");
+  static const std::vector<std::string> kinds = {"profiles",    "history",        "energy",
+                                                 "convergence", "work-precision", "shear-rate",
+                                                 "viscosity",   "pressure",       "stability-map"};
+  if (std::ranges::count(kinds, figure.kind) == 0) table.fail("kind", "must be one of: " + joined(kinds));
+  figure.title = table.text("title");
+  if (figure.kind == "stability-map") {
+    read_map(table, study, figure);
+    read_name(table, study, figure);
+    table.refuse_unknown_keys();
+    return figure;
+  }
+  if (study.runs.empty()) table.fail("kind", "needs runs, and a study with [stability] has none");
+  figure.norm = table.text("norm", "l2");
+  if (figure.norm != "l1" && figure.norm != "l2" && figure.norm != "linf")
+    table.fail("norm", "must be \"l1\", \"l2\" or \"linf\"");
+  figure.location = table.text("location", figure.kind == "profiles" ? "grid" : "grid;particles");
+  if (figure.location != "grid" && figure.location != "particles" && figure.location != "grid;particles")
+    table.fail("location", "must be \"grid\", \"particles\" or \"grid;particles\"");
+
+  const std::vector<std::string> variants = table.has("variants") ? table.texts("variants") : study.variants;
+  std::vector<std::string> runs;
+  const PlannedRun* last = nullptr;
+  for (const std::string& variant : variants) {
+    const auto ladder = study.runs_of(variant);
+    if (ladder.empty()) table.fail("variants", "'" + variant + "' is no variant of this study");
+    last = ladder.back();
+    runs.push_back(last->run);
+  }
+  const bool shear = figure.kind == "shear-rate" || figure.kind == "viscosity";
+  const bool pressure = figure.kind == "pressure";
+  if (shear || pressure) {
+    figure.t = table.number("t");
+    if (std::ranges::count(last->scene.outputs, figure.t) == 0)
+      table.fail("t", "is no output time of the study");
+    if (pressure && !std::isfinite(last->scene.flow->pressure_scale()))
+      table.fail("kind", "is for flows with an exact pressure");
+    if (shear && !last->scene.flow->has_shear_profile()) table.fail("kind", "is for channels");
+  }
+  if (shear || pressure || figure.kind == "profiles" || figure.kind == "history" || figure.kind == "energy") {
+    if (figure.kind == "profiles" && runs.size() > 1)
+      table.fail("variants", "a profile figure shows one variant");
+    figure.runs = joined(runs);
+    figure.labels = table.has("labels") ? joined(table.texts("labels")) : joined(variants);
+    figure.across = last->scene.flow->across() == 0 ? "x" : "y";
+    figure.component = last->scene.flow->probe().direction.x() != 0 ? "u" : "v";
+  }
+  if (figure.kind == "work-precision") {
+    figure.across = table.text("cost", "wall");
+    if (figure.across != "wall" && figure.across != "particle-steps")
+      table.fail("cost", "must be \"wall\" or \"particle-steps\"");
+  }
+  read_name(table, study, figure);
+  table.refuse_unknown_keys();
+  return figure;
+}
+
+}  // namespace verification

@@ -1,0 +1,286 @@
+#include "verification/reading/study_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/records/result_files.hpp"
+#include "verification/checks/check_reader.hpp"
+#include "verification/config/config_error.hpp"
+#include "verification/reading/figure_reader.hpp"
+#include "verification/reading/scoreboard_reader.hpp"
+#include "verification/runs/scheme_matrix.hpp"
+#include "verification/scene/matrix.hpp"
+
+namespace verification {
+namespace {
+
+template <class Value>
+void require_ladder(const TomlTable& table, const std::string& key, const std::vector<Value>& values,
+                    bool rising) {
+  if (values.size() < 2) table.fail(key, "needs at least two levels");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!(values[i] > 0)) table.fail(key, "must be positive");
+    if (i > 0 && (rising ? values[i] <= values[i - 1] : values[i] >= values[i - 1]))
+      table.fail(key, "must run from coarse to fine");
+  }
+}
+
+Ladder read_ladder(TomlTable table, bool present, bool matrix) {
+  Ladder ladder;
+  if (!present) return ladder;
+  const std::string axis = table.text("axis");
+  if (axis == "space") {
+    ladder.axis = Axis::Space;
+    ladder.cells = table.integers("cells");
+    require_ladder(table, "cells", ladder.cells, true);
+    ladder.formal_exponent = table.flag("formal_dt_exponent", false);
+    ladder.dt_exponent = table.number("dt_exponent", ladder.dt_exponent);
+  } else if (axis == "time") {
+    ladder.axis = Axis::Time;
+    ladder.dt = table.numbers("dt");
+    require_ladder(table, "dt", ladder.dt, false);
+    if (ladder.dt.size() < 3) table.fail("dt", "needs at least three levels: orders come from differences");
+  } else if (axis == "mach") {
+    ladder.axis = Axis::Mach;
+    if (matrix)
+      table.fail("axis", "\"mach\" is not for a [matrix], which judges schemes by their own orders");
+    ladder.mach = table.numbers("mach");
+    require_ladder(table, "mach", ladder.mach, false);
+  } else {
+    table.fail("axis", "must be \"space\", \"time\" or \"mach\"");
+  }
+  // A matrix of schemes knows each scheme's own order.
+  if (!matrix || table.has("theoretical"))
+    ladder.theoretical = ladder.theoretical_particles = table.positive("theoretical");
+  ladder.floor = table.positive("floor", ladder.floor);
+  table.refuse_unknown_keys();
+  return ladder;
+}
+
+/// Lays the values of one level over the scene. A space ladder scales a fixed dt; one from limits follows by
+/// itself.
+TomlTable at_level(const TomlTable& scene, const Ladder& ladder, int level, std::string& tag) {
+  TomlTable result = scene.overlaid_with(TomlTable::from_text("", ""), "");
+  const auto i = static_cast<std::size_t>(level);
+  if (ladder.axis == Axis::Space) {
+    result.set("discretisation.cells", ladder.cells[i]);
+    TomlTable time = result.table("time");
+    if (time.has("dt")) {
+      const double ratio = static_cast<double>(ladder.cells.front()) / ladder.cells[i];
+      result.set("time.dt", time.positive("dt") * std::pow(ratio, ladder.dt_exponent));
+    }
+    tag = "n" + std::to_string(ladder.cells[i]);
+  } else if (ladder.axis == Axis::Time) {
+    result.set("time.dt", ladder.dt[i]);
+    tag = "level" + std::to_string(level);
+  } else if (ladder.axis == Axis::Mach) {
+    // c = sqrt(7 K/rho0) = U/Ma
+    const double sound_speed = result.table("scene").positive("amplitude") / ladder.mach[i];
+    const double density = result.table("fluid").positive("density", mpm::Fluid{}.density);
+    result.set("fluid.bulk_modulus", density * sound_speed * sound_speed / 7);
+    tag = fmt::format("ma{:g}", ladder.mach[i]);
+  }
+  return result;
+}
+
+/// What a matrix of schemes needs to know of one of them before its runs are planned.
+Ladder ladder_for(const Study& study, const TomlTable& scene) {
+  Ladder ladder = study.ladder;
+  if (!study.matrix) return ladder;
+  TomlTable copy = scene.overlaid_with(TomlTable::from_text("", ""), "");
+  const mpm::Scheme scheme = read_scene_config(copy).scheme;
+  if (ladder.formal_exponent) ladder.dt_exponent = formal_dt_exponent(scheme);
+  ladder.theoretical = expected_order(scheme, ladder.axis, ladder.dt_exponent, Location::Grid);
+  ladder.theoretical_particles = expected_order(scheme, ladder.axis, ladder.dt_exponent, Location::Particles);
+  return ladder;
+}
+
+void plan_runs(Study& study, const TomlTable& scene, const std::string& variant) {
+  const Ladder ladder = ladder_for(study, scene);
+  const std::size_t levels = ladder.axis == Axis::Space  ? ladder.cells.size()
+                             : ladder.axis == Axis::Time ? ladder.dt.size()
+                             : ladder.axis == Axis::Mach ? ladder.mach.size()
+                                                         : 1;
+  for (std::size_t level = 0; level < levels; ++level) {
+    PlannedRun planned;
+    std::string tag;
+    planned.scene = read_scene_config(at_level(scene, ladder, static_cast<int>(level), tag));
+    planned.variant = variant;
+    planned.theoretical = ladder.theoretical;
+    planned.theoretical_particles = ladder.theoretical_particles;
+    planned.level = static_cast<int>(level);
+    planned.step = ladder.axis == Axis::Time   ? ladder.dt[level]
+                   : ladder.axis == Axis::Mach ? ladder.mach[level]
+                                               : planned.scene.cell_size();
+    planned.run = study.name + (variant.empty() ? "" : "." + variant) + (tag.empty() ? "" : "." + tag);
+    study.runs.push_back(std::move(planned));
+  }
+}
+
+/// A study of limits has schemes, and boxes of its own instead of a scene.
+void read_limits(Study& study, TomlTable& root) {
+  if (!study.matrix) root.fail("stability", "needs the [matrix] of schemes whose limits it measures");
+  for (const char* key : {"ladder", "solver", "variant", "compare_with"})
+    if (root.has(key)) root.fail(key, "has no meaning beside [stability]");
+  const std::vector<MatrixEntry> matrix = read_matrix(root.table("matrix"));
+  for (const MatrixEntry& entry : matrix) study.variants.push_back(entry.variant);
+  study.stability = read_stability(root.table("stability"), matrix);
+  study.stability.toml = root.restricted_to({"matrix", "stability"}).print();
+}
+
+void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
+  if (study.matrix) {
+    for (const MatrixEntry& entry : read_matrix(root.table("matrix"))) {
+      const TomlTable scheme = TomlTable::from_text(entry.toml(), "matrix");
+      study.variants.push_back(entry.variant);
+      plan_runs(study, base.overlaid_with(scheme, "scheme " + entry.variant), entry.variant);
+    }
+  }
+  std::vector<TomlTable> variants = root.tables("variant");
+
+  if (variants.empty() && !study.matrix) {
+    study.variants = {""};
+    plan_runs(study, base, "");
+    return;
+  }
+  for (TomlTable& variant : variants) {
+    const std::string name = variant.text("name");
+    if (!reports::is_plain_name(name)) variant.fail("name", "may hold letters, digits and . _ = - only");
+    if (std::ranges::count(study.variants, name) > 0) variant.fail("name", "'" + name + "' stands twice");
+    study.variants.push_back(name);
+    const TomlTable overrides = variant.restricted_to(scene_tables());
+    for (const std::string& key : scene_tables()) variant.accept(key);
+    variant.refuse_unknown_keys();
+    plan_runs(study, base.overlaid_with(overrides, "variant " + name), name);
+  }
+}
+
+Comparison read_comparison(TomlTable& root) {
+  const std::string comparison = root.text("compare_with", "exact");
+  if (comparison == "exact") return Comparison::Exact;
+  if (comparison == "discrete") return Comparison::Discrete;
+  if (comparison == "steady-nodes") return Comparison::SteadyNodes;
+  root.fail("compare_with", "must be \"exact\", \"discrete\" or \"steady-nodes\"");
+}
+
+ClaimSpec read_claim(TomlTable& table) {
+  ClaimSpec claim{table.text("id"), table.text("source"), table.text("statement"), table.text("verdict"),
+                  table.text("note", "")};
+  if (claim.verdict != "confirmed" && claim.verdict != "refuted" &&
+      claim.verdict != "confirmed within bounds")
+    table.fail("verdict", "must be \"confirmed\", \"refuted\" or \"confirmed within bounds\"");
+  table.refuse_unknown_keys();
+  return claim;
+}
+
+/// Every claim rests on a check, and every check that names a claim names one that is there.
+void require_evidence(const TomlTable& root, const Study& study) {
+  for (const ClaimSpec& claim : study.claims)
+    if (std::ranges::count(study.checks, claim.id, &CheckSpec::claim) == 0)
+      root.fail("statement", "'" + claim.id + "' rests on no check; name it as evidence_for in a [[check]]");
+  for (const CheckSpec& check : study.checks)
+    if (!check.claim.empty() && std::ranges::count(study.claims, check.claim, &ClaimSpec::id) == 0)
+      root.fail("check", "is evidence for '" + check.claim + "', which is not there");
+}
+
+void require_comparable(const TomlTable& root, const Study& study) {
+  if (study.comparison == Comparison::SteadyNodes)
+    for (const PlannedRun& planned : study.runs)
+      if (!planned.scene.flow->steady_nodes(planned.scene.discretisation))
+        root.fail("compare_with",
+                  "\"steady-nodes\" is known for Poiseuille flow only (run " + planned.run + ")");
+
+  if (study.comparison != Comparison::Discrete) return;
+  for (const PlannedRun& planned : study.runs) {
+    const SceneConfig& scene = planned.scene;
+    const mpm::Scheme& scheme = scene.scheme;
+    const bool papers_scheme =
+        scheme.basis == mpm::Scheme::Basis::Linear && scheme.transfer == mpm::Scheme::Transfer::Flip &&
+        (scheme.stepping == mpm::Scheme::Stepping::Usf || scheme.stepping == mpm::Scheme::Stepping::Musl);
+    const mpm::Seeding& seeding = scene.scene.seeding;
+    const bool evenly = seeding.displacement == 0 && seeding.rule[0] == seeding.rule[1];
+    if (!papers_scheme || !evenly || scene.time_step.dt == 0 ||
+        !scene.flow->exact_discrete(scene.discretisation, scene.time_step.dt))
+      root.fail("compare_with",
+                "\"discrete\" is known for linear flip usf and musl channels, even seeding and a fixed dt "
+                "only (run " +
+                    planned.run + ")");
+    for (const double t : scene.outputs)
+      if (std::abs(t / scene.time_step.dt - std::round(t / scene.time_step.dt)) > 1e-6)
+        root.fail("compare_with",
+                  "\"discrete\" needs output times that are multiples of dt (run " + planned.run + ")");
+  }
+}
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& file) {
+  TomlTable root = TomlTable::from_file(file.string());
+  Study study;
+  // The key of the study in every table: the file's name, unless it needs letters that a file had better not.
+  study.name = root.text("name", file.stem().string());
+  if (!reports::is_plain_name(study.name))
+    throw ConfigError(
+        file.string() +
+        ": a study is named after its file, or by name = \"...\": letters, digits and . _ = - only");
+  study.title = root.text("title");
+  study.claim = root.text("claim");
+  try {
+    study.suite = suite_named(root.text("suite", "full"));
+  } catch (const ConfigError& error) {
+    root.fail("suite", error.what());
+  }
+  study.comparison = read_comparison(root);
+  study.ladder = read_ladder(root.table("ladder"), root.has("ladder"), root.has("matrix"));
+  study.matrix = root.has("matrix");
+  study.repetitions = root.integer("repetitions", 0);
+  if (study.repetitions < 0 || study.repetitions > 1000) root.fail("repetitions", "must lie in [0, 1000]");
+  if (root.has("solver")) {
+    TomlTable solver = root.table("solver");
+    study.solver_command = solver.text("command");
+    solver.refuse_unknown_keys();
+  }
+  if (root.has("stability")) {
+    read_limits(study, root);
+  } else {
+    for (const std::string& key : scene_tables()) root.accept(key);
+    read_variants(study, root, root.restricted_to(scene_tables()));
+    require_comparable(root, study);
+    read_scoreboard(root, study);
+  }
+  for (TomlTable& table : root.tables("check")) study.checks.push_back(read_check(table, study));
+  if (study.checks.empty())
+    root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");
+  for (TomlTable& table : root.tables("statement")) study.claims.push_back(read_claim(table));
+  require_evidence(root, study);
+  for (TomlTable& table : root.tables("figure")) study.figures.push_back(read_figure(table, study));
+  if (!study.figures.empty() && study.scoreboard &&
+      !(study.scoreboard->in_full.empty() && study.scoreboard->in_quick.empty()))
+    root.fail("figure",
+              "cannot show a study of which a lesser suite runs a part; remove it, or in_full and in_quick");
+  root.refuse_unknown_keys();
+  return study;
+}
+
+std::vector<Study> read_studies(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory, error))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  if (files.empty())
+    throw ConfigError(directory.string() +
+                      ": no studies (*.toml) here; give their directory with --studies DIR");
+  std::ranges::sort(files);
+  std::vector<Study> studies;
+  for (const auto& file : files) studies.push_back(read_study(file));
+  // In the order of their names, wherever they lie: moving a file changes no table.
+  std::ranges::stable_sort(studies, {}, [](const Study& study) { return study.name + ".toml"; });
+  for (std::size_t s = 1; s < studies.size(); ++s)
+    if (studies[s].name == studies[s - 1].name)
+      throw ConfigError(directory.string() + ": two studies are named '" + studies[s].name + "'; rename one");
+  return studies;
+}
+
+}  // namespace verification

@@ -1,0 +1,142 @@
+#include "verification/runs/measures.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "verification/convergence/eca_hoekstra.hpp"
+#include "verification/convergence/gci.hpp"
+#include "verification/convergence/norms.hpp"
+
+namespace verification {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+const char* const norm_names[] = {"l1", "l2", "linf"};
+
+Norms norms_or_nan(const std::vector<Eigen::Vector2d>& errors, double scale) {
+  return errors.empty() ? Norms{nan, nan, nan} : error_norms(errors, scale);
+}
+
+double pick(const Norms& norms, const std::string& norm) {
+  return norm == "l1" ? norms.l1 : norm == "l2" ? norms.l2 : norms.linf;
+}
+
+/// Norms of the difference of two runs on the same mesh, particle by particle and corner by corner.
+Norms difference_norms(const RunData& a, const RunData& b, double t, Location location) {
+  const auto rows_a = rows_at(a, t, location), rows_b = rows_at(b, t, location);
+  std::vector<Eigen::Vector2d> differences;
+  if (rows_a.size() == rows_b.size())
+    for (std::size_t i = 0; i < rows_a.size(); ++i)
+      differences.emplace_back(rows_a[i]->u - rows_b[i]->u, rows_a[i]->v - rows_b[i]->v);
+  return norms_or_nan(differences, a.plan->scene.flow->velocity_scale_at(t));
+}
+
+/// GCI of the three finest levels and Eca-Hoekstra uncertainty of the probe velocity, relative to the scale.
+void add_uncertainty(reports::OrderRecord& order, const std::vector<const RunData*>& ladder,
+                     std::size_t output, double formal_order) {
+  order.gci = order.gci_safety_factor = order.uncertainty = nan;
+  std::vector<double> steps, values;
+  for (const RunData* run : ladder) {
+    steps.push_back(run->plan->step);
+    values.push_back(output < run->probe.size() ? run->probe[output] / run->plan->scene.flow->velocity_scale()
+                                                : nan);
+  }
+  order.quantity = "velocity at the probe, grid";
+  if (steps.size() >= 3) {
+    const GciResult gci = grid_convergence_index({steps.end() - 3, steps.end()},
+                                                 {values.end() - 3, values.end()}, formal_order);
+    order.gci = gci.uncertainty;
+    order.gci_safety_factor = gci.safety_factor;
+  }
+  if (steps.size() >= 4) order.uncertainty = eca_hoekstra(steps, values, formal_order).uncertainty;
+}
+
+void measure_ladder(StudyData& data, const std::string& variant, Location location, const char* norm,
+                    std::size_t output) {
+  const Ladder& ladder = data.study->ladder;
+  const auto runs = data.runs_of(variant);
+  const double t = runs.front()->plan->scene.outputs[output];
+  std::vector<double> steps, values;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    steps.push_back(runs[k]->plan->step);
+    if (ladder.axis != Axis::Time) {
+      for (const reports::ErrorRecord& error : runs[k]->errors)
+        if (error.t == t && error.location == name(location))
+          values.push_back(verification::pick(error, norm));
+    } else if (k + 1 < runs.size()) {
+      values.push_back(pick(difference_norms(*runs[k], *runs[k + 1], t, location), norm));
+    }
+  }
+  OrderOptions options;
+  options.floor = ladder.floor;
+  const OrderEstimate estimate = ladder.axis != Axis::Time
+                                     ? estimate_order(steps, values, options)
+                                     : estimate_order_from_differences(steps, values, options);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    data.levels.push_back({data.study->name, variant, name(ladder.axis), name(location), norm, t, steps[k],
+                           values[k], bool(estimate.used[k])});
+  reports::OrderRecord order;
+  order.study = data.study->name;
+  order.variant = variant;
+  order.axis = name(ladder.axis);
+  order.location = name(location);
+  order.norm = norm;
+  order.t = t;
+  order.theoretical = location == Location::Grid ? runs.front()->plan->theoretical
+                                                 : runs.front()->plan->theoretical_particles;
+  order.observed = estimate.order;
+  order.ci_lower = estimate.has_interval ? estimate.lower : nan;
+  order.ci_upper = estimate.has_interval ? estimate.upper : nan;
+  order.levels_used = static_cast<long>(estimate.used_count);
+  order.levels = static_cast<long>(values.size());
+  order.classification = to_string(estimate.convergence);
+  for (const double p : estimate.pairwise)
+    order.pairwise += (order.pairwise.empty() ? "" : ";") + fmt::format("{:.4f}", p);
+  order.gci = order.gci_safety_factor = order.uncertainty = nan;
+  if (ladder.axis == Axis::Space && location == Location::Grid && order.theoretical >= 1)
+    add_uncertainty(order, runs, output, order.theoretical);
+  data.orders.push_back(order);
+}
+
+}  // namespace
+
+double pick(const reports::ErrorRecord& error, const std::string& norm) {
+  return pick(Norms{error.l1, error.l2, error.linf}, norm);
+}
+
+std::vector<const reports::ProfileRow*> rows_at(const RunData& run, double t, Location location) {
+  std::vector<const reports::ProfileRow*> rows;
+  const std::string wanted = name(location);
+  for (const reports::ProfileRow& row : run.profile)
+    if (row.t == t && row.location == wanted) rows.push_back(&row);
+  return rows;
+}
+
+std::vector<reports::ErrorRecord> measure_errors(const RunData& run) {
+  std::vector<reports::ErrorRecord> records;
+  for (const double t : run.plan->scene.outputs) {
+    for (const Location location : {Location::Grid, Location::Particles}) {
+      std::vector<Eigen::Vector2d> errors;
+      for (const reports::ProfileRow* row : rows_at(run, t, location))
+        errors.emplace_back(row->u - row->u_exact, row->v - row->v_exact);
+      const Norms norms = norms_or_nan(errors, run.plan->scene.flow->velocity_scale_at(t));
+      records.push_back({run.record.run, t, name(location), norms.l1, norms.l2, norms.linf});
+    }
+  }
+  return records;
+}
+
+void measure_orders(StudyData& data) {
+  if (data.study->ladder.axis == Axis::None) return;
+  for (const std::string& variant : data.study->variants) {
+    const std::size_t outputs = data.runs_of(variant).front()->plan->scene.outputs.size();
+    for (const Location location : {Location::Grid, Location::Particles})
+      for (const char* norm : norm_names)
+        for (std::size_t output = 0; output < outputs; ++output)
+          measure_ladder(data, variant, location, norm, output);
+  }
+}
+
+}  // namespace verification

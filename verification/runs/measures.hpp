@@ -1,0 +1,22 @@
+#pragma once
+
+#include "verification/runs/run_data.hpp"
+
+namespace verification {
+
+/// Relative error norms of a run at every output time on grid and particles, from its profile rows. An output
+/// that was not reached, and a run without an exact solution, give NaN.
+std::vector<reports::ErrorRecord> measure_errors(const RunData& run);
+
+/// Fills levels and orders of a study with a ladder: against the exact solution in space and Mach number,
+/// from successive differences on one mesh in time. Orders in space carry the GCI and the Eca-Hoekstra
+/// uncertainty of the probe velocity.
+void measure_orders(StudyData& data);
+
+/// The value of one norm.
+double pick(const reports::ErrorRecord& error, const std::string& norm);
+
+/// Profile rows of one time and location, in the order in which they were taken.
+std::vector<const reports::ProfileRow*> rows_at(const RunData& run, double t, Location location);
+
+}  // namespace verification

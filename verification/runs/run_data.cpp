@@ -1,0 +1,23 @@
+#include "verification/runs/run_data.hpp"
+
+namespace verification {
+
+reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long steps,
+                                const std::string& status) {
+  const SceneConfig& scene = plan.scene;
+  return {plan.run,
+          study.name,
+          scene.flow_name,
+          scene.fluid.label,
+          mpm::name(scene.scheme.basis),
+          mpm::name(scene.scheme.transfer),
+          mpm::name(scene.scheme.stepping),
+          scene.discretisation.cells,
+          scene.particles(),
+          scene.segments.front().dt,
+          steps,
+          status,
+          mpm::reset_name(scene.scheme)};
+}
+
+}  // namespace verification

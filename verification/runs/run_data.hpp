@@ -1,0 +1,55 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reports/records/records.hpp"
+#include "solver/linear_algebra.hpp"
+#include "verification/convergence/order.hpp"
+#include "verification/study/study.hpp"
+
+namespace verification {
+
+/// What one run left behind.
+struct RunData {
+  const PlannedRun* plan = nullptr;
+  reports::RunRecord record;
+  reports::TimingRecord timing;
+  std::vector<reports::ProfileRow> profile;
+  std::vector<reports::HistoryRow> history;
+  std::vector<reports::ShearRow> shear;  ///< channels only
+  std::vector<reports::StateRow> state;  ///< flows with an exact density only
+  mpm::VectorField start;     ///< where the particles were seeded, in the order of the profiles [m]
+  std::vector<double> probe;  ///< streamwise grid velocity at the probe at each output reached [m/s]
+  std::vector<reports::ErrorRecord> errors;
+
+  [[nodiscard]] bool completed() const { return record.status == "completed"; }
+};
+
+/// The row of runs.csv for a planned run that took `steps` and ended with `status`.
+reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long steps,
+                                const std::string& status);
+
+/// What a study's runs amount to.
+struct StudyData {
+  const Study* study = nullptr;
+  std::vector<RunData> runs;  ///< in the order of study->runs
+  std::vector<reports::LevelRecord> levels;
+  std::vector<reports::OrderRecord> orders;
+  std::vector<reports::CheckRecord> checks;
+  std::vector<reports::ClaimRecord> claims;
+  std::vector<reports::MatrixRecord> matrix;
+  std::vector<reports::ScoreRecord> scores;
+  std::vector<reports::StabilityRecord> stability;       ///< in the order of study->stability.cases
+  std::vector<reports::TimingRecord> stability_timings;  ///< one a case
+
+  [[nodiscard]] std::vector<const RunData*> runs_of(const std::string& variant) const {
+    std::vector<const RunData*> found;
+    for (const RunData& run : runs)
+      if (run.plan->variant == variant) found.push_back(&run);
+    return found;
+  }
+};
+
+}  // namespace verification

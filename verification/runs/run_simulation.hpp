@@ -1,0 +1,27 @@
+#pragma once
+
+#include "verification/runs/run_data.hpp"
+
+namespace verification {
+
+/// Runs one planned simulation with our solver and takes its profiles, history and timing. A run that breaks
+/// down is recorded ("diverged at t = ..."); its profiles end with the last output reached. Throws
+/// Interrupted when a signal has come (interruption.hpp).
+RunData run_simulation(const Study& study, const PlannedRun& plan);
+
+/// The reference that a run needs and that takes long to compute (Flow::costly_reference).
+std::optional<CostlyReference> costly_reference(const Study& study, const SceneConfig& scene);
+
+/// What the study compares a scene with; null where nothing is known.
+std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneConfig& scene);
+
+/// Shear rate and viscosity of the exact solution on the same points; empty but for channels.
+std::vector<reports::ShearRow> exact_shear(const SceneConfig& scene, const ExactField& exact);
+
+/// Density and pressure of the exact solution on its fine line; empty where it has no density.
+std::vector<reports::StateRow> exact_state(const SceneConfig& scene, const ExactField& exact);
+
+/// Fine exact lines at the output times, for figures and for `reference`.
+std::vector<reports::ProfileRow> exact_lines(const SceneConfig& scene, const ExactField& exact);
+
+}  // namespace verification

@@ -1,0 +1,183 @@
+#include "verification/scene/scene_config.hpp"
+
+#include <algorithm>
+
+#include "verification/config/config_error.hpp"
+
+namespace verification {
+namespace {
+
+Discretisation read_discretisation(TomlTable& table) {
+  Discretisation d;
+  d.cells = table.integer("cells");
+  if (d.cells < 1) table.fail("cells", "must be at least 1");
+  d.cells_along = table.integer("cells_along", 1);
+  if (d.cells_along < 1) table.fail("cells_along", "must be at least 1");
+  d.particles_across = table.integer("particles_across", 2);
+  if (d.particles_across < 1) table.fail("particles_across", "must be at least 1");
+  d.particles_along = table.integer("particles_along", 2);
+  if (d.particles_along < 1) table.fail("particles_along", "must be at least 1");
+  return d;
+}
+
+template <class Named>
+auto read_named(TomlTable& table, const std::string& key, const std::string& absent, Named&& named) {
+  const std::string text = table.text(key, absent);
+  try {
+    return named(text);
+  } catch (const mpm::SceneError& error) {
+    table.fail(key, error.what());
+  }
+}
+
+/// Rows across the flow by the rule, even spacing along it: rows of a shear flow slide along themselves, and
+/// equal spacing keeps the nodal mass constant.
+mpm::Seeding read_seeding(TomlTable& table, int across) {
+  mpm::Seeding seeding;
+  seeding.rule[static_cast<std::size_t>(across)] = read_named(table, "seeding", "even", mpm::seeding_named);
+  seeding.displacement = table.number("displacement", 0);
+  if (!(seeding.displacement >= 0 && seeding.displacement <= 0.5))
+    table.fail("displacement", "must lie in [0, 0.5] of the particle spacing");
+  const int seed = table.integer("seed", 1);
+  if (seed < 0) table.fail("seed", "must not be negative");
+  seeding.seed = static_cast<unsigned>(seed);
+  return seeding;
+}
+
+mpm::Scheme read_scheme(TomlTable table) {
+  mpm::Scheme scheme;
+  scheme.basis = read_named(table, "basis", "linear", mpm::basis_named);
+  scheme.transfer = read_named(table, "transfer", "flip", mpm::transfer_named);
+  scheme.stepping = read_named(table, "stepping", "usf", mpm::stepping_named);
+  if (scheme.transfer == mpm::Scheme::Transfer::FlipBlend) {
+    scheme.flip_fraction = table.number("flip_fraction", scheme.flip_fraction);
+    if (!(scheme.flip_fraction >= 0 && scheme.flip_fraction <= 1))
+      table.fail("flip_fraction", "must lie in [0, 1]");
+  }
+  scheme.reset_every = table.integer("reset_every", 0);
+  if (scheme.reset_every < 0)
+    table.fail("reset_every", "must not be negative: steps between resets, 0 for none");
+  if (table.has("reset_strain")) scheme.reset_strain = table.positive("reset_strain");
+  table.refuse_unknown_keys();
+  return scheme;
+}
+
+std::vector<double> read_outputs(TomlTable& table) {
+  std::vector<double> outputs;
+  if (table.has("outputs")) outputs = table.numbers("outputs");
+  double last = 0;
+  for (const double t : outputs) {
+    if (!(t > last)) table.fail("outputs", "must be positive and increase");
+    last = t;
+  }
+  if (table.has("end")) {
+    const double end = table.positive("end");
+    if (end < last) table.fail("end", "must not lie before the last output");
+    if (end > last) outputs.push_back(end);
+  }
+  if (outputs.empty()) table.fail("end", "is missing; give the end time or a list of outputs [s]");
+  return outputs;
+}
+
+mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme, const mpm::Scene& scene) {
+  mpm::TimeStepRule rule;
+  if (table.has("dt")) {
+    rule.dt = table.positive("dt");
+    for (const char* key : {"cfl_acoustic", "cfl_viscous"})
+      if (table.has(key)) table.fail(key, "cannot stand beside dt: give either a step or its limits");
+    return rule;
+  }
+  if (table.has("cfl_acoustic") && table.has("cfl_viscous")) {
+    rule.cfl_acoustic = table.positive("cfl_acoustic");
+    rule.cfl_viscous = table.positive("cfl_viscous");
+    return rule;
+  }
+  try {
+    rule = mpm::automatic_time_step(scheme, scene);
+  } catch (const mpm::SceneError& error) {
+    table.fail("dt", error.what());
+  }
+  rule.cfl_acoustic = table.positive("cfl_acoustic", rule.cfl_acoustic);
+  rule.cfl_viscous = table.positive("cfl_viscous", rule.cfl_viscous);
+  return rule;
+}
+
+}  // namespace
+
+const std::vector<std::string>& scene_tables() {
+  static const std::vector<std::string> tables = {"scene", "fluid", "discretisation", "scheme", "time"};
+  return tables;
+}
+
+std::vector<double> SceneConfig::reference_times() const {
+  std::vector<double> times = outputs;
+  if (start > 0) times.push_back(start);
+  times.insert(times.end(), more_reference_times.begin(), more_reference_times.end());
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+long SceneConfig::particles() const {
+  return static_cast<long>(scene.cells[0]) * scene.cells[1] * scene.particles_per_cell[0] *
+         scene.particles_per_cell[1];
+}
+
+long SceneConfig::steps() const {
+  long sum = 0;
+  for (const mpm::Segment& segment : segments) sum += segment.steps;
+  return sum;
+}
+
+double SceneConfig::particle_steps() const {
+  return static_cast<double>(particles()) * static_cast<double>(steps());
+}
+
+SceneConfig read_scene_config(TomlTable root) {
+  SceneConfig config;
+  config.toml = root.restricted_to(scene_tables()).print();
+  config.fluid = read_fluid(root.table("fluid"));
+  TomlTable scene = root.table("scene");
+  config.flow_name = scene.text("flow");
+  config.flow = read_flow(scene, config.fluid);
+  TomlTable discretisation = root.table("discretisation");
+  config.discretisation = read_discretisation(discretisation);
+  const mpm::Seeding seeding = read_seeding(discretisation, config.flow->across());
+  discretisation.refuse_unknown_keys();
+  config.scheme = read_scheme(root.table("scheme"));
+  TomlTable time = root.table("time");
+  config.start = time.has("start") ? time.positive("start") : 0;
+  if (config.start > 0 && !config.flow->has_exact())
+    time.fail("start", "needs a flow with an exact solution");
+  config.outputs = read_outputs(time);
+  if (config.outputs.front() <= config.start) time.fail("outputs", "must lie beyond time.start");
+  if (config.outputs.back() >= config.flow->latest())
+    time.fail("end", "must lie before the end of the solution: the flow collapses at its 1/rate");
+  if (time.has("reference_times")) config.more_reference_times = time.numbers("reference_times");
+  for (const double t : config.more_reference_times)
+    if (!(t > 0)) time.fail("reference_times", "must be positive");
+  config.history_samples = time.integer("history_samples", 100);
+  if (config.history_samples < 1) time.fail("history_samples", "must be at least 1");
+  try {
+    config.scene = config.flow->scene(config.discretisation);
+    config.scene.seeding = seeding;
+    config.scene.start = config.start;
+    config.scene.validate();
+  } catch (const mpm::SceneError& error) {
+    root.fail("scene", error.what());
+  }
+  if (config.start > 0 && config.scene.initial_density &&
+      !config.flow->exact({config.start})->density(Vec2::Zero(), config.start))
+    time.fail("start", "is for flows whose density is known at any time: this one starts at t = 0 only");
+  config.time_step = read_time_step(time, config.scheme, config.scene);
+  time.refuse_unknown_keys();
+  root.refuse_unknown_keys();
+  try {
+    config.segments = mpm::plan_segments(config.time_step, config.scene, config.outputs, config.start);
+  } catch (const mpm::SceneError& error) {
+    root.fail(config.time_step.dt > 0 ? "time.dt" : "scene", error.what());
+  }
+  return config;
+}
+
+}  // namespace verification

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/scene/scene.hpp"
+#include "solver/step/time_step.hpp"
+#include "verification/config/toml_table.hpp"
+#include "verification/scene/flow_reader.hpp"
+
+namespace verification {
+
+/// One simulation as the user states it: the tables scene, fluid, discretisation, scheme and time of a TOML
+/// file.
+struct SceneConfig {
+  std::string toml;       ///< text that reproduces it
+  std::string flow_name;  ///< scene.flow
+  std::shared_ptr<const Flow> flow;
+  FluidConfig fluid;
+  Discretisation discretisation;
+  mpm::Scheme scheme;
+  mpm::TimeStepRule time_step;
+  double start = 0;  ///< time at which the run starts, from the exact solution if not from rest [s]
+  std::vector<double> outputs;               ///< output times, increasing [s]
+  std::vector<double> more_reference_times;  ///< time.reference_times [s]
+  int history_samples = 0;                   ///< points in the history, evenly spread over the run
+  mpm::Scene scene;                          ///< the solver's scene that follows from all this
+  std::vector<mpm::Segment> segments;
+
+  /// Times at which the reference is wanted [s], increasing: start, outputs, and those asked for besides, so
+  /// that scenes with different outputs can share one computed reference.
+  [[nodiscard]] std::vector<double> reference_times() const;
+  [[nodiscard]] long particles() const;
+  [[nodiscard]] long steps() const;
+  /// Particles times steps: what the run costs on any machine.
+  [[nodiscard]] double particle_steps() const;
+  /// Cell size in the direction across [m].
+  [[nodiscard]] double cell_size() const { return flow->length() / discretisation.cells; }
+};
+
+/// The tables that make up a scene, in reading order.
+const std::vector<std::string>& scene_tables();
+
+/// Reads a scene and refuses what the solver could not run. Throws ConfigError.
+SceneConfig read_scene_config(TomlTable root);
+
+}  // namespace verification
