@@ -1,5 +1,6 @@
 #include "tests/catch.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/study_text.hpp"
 
 namespace {
 
@@ -18,10 +19,7 @@ end = 0.01
 )";
 
 std::string with(const std::string& from, const std::string& to) {
-  std::string text = good_scene;
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
+  return replaced(good_scene, from, to);
 }
 
 /// One line, exit code 2, naming what it must.

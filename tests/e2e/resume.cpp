@@ -5,26 +5,14 @@
 
 #include "tests/catch.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/study_text.hpp"
 
 namespace {
 
 /// Six runs of a tenth of a second or so each, after a quick one.
-const std::string study = R"(title = "Slow"
-claim = "Long enough to be stopped"
-[scene]
-flow = "couette"
-height = 1e-3
-plate_velocity = 1e-4
-[fluid]
-kinematic_viscosity = 1e-6
-pressure = false
-[discretisation]
-cells = 16
-cells_along = 4
-[time]
-dt = 2e-5
-outputs = [0.1, 0.2]
-[[variant]]
+const std::string study = study_text(
+    "Slow", "Long enough to be stopped",
+    couette_scene("cells = 16\ncells_along = 4", "dt = 2e-5\noutputs = [0.1, 0.2]") + R"([[variant]]
 name = "a"
 [[variant]]
 name = "b"
@@ -46,7 +34,7 @@ reason = "O(h^2) on 16 cells, times 3"
 [[figure]]
 kind = "history"
 title = "Slow"
-)";
+)");
 
 /// All CSV files but timing.csv, by name.
 std::map<std::string, std::string> tables(const std::filesystem::path& root) {
@@ -55,12 +43,6 @@ std::map<std::string, std::string> tables(const std::filesystem::path& root) {
     if (entry.path().extension() == ".csv" && entry.path().filename() != "timing.csv")
       files[std::filesystem::relative(entry.path(), root).string()] = content_of(entry.path());
   return files;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
 }
 
 /// Starts the program, waits until it has kept `runs` runs in the cache, and sends it a signal. Returns how

@@ -1,25 +1,12 @@
 #include "tests/catch.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/study_text.hpp"
 
 namespace {
 
 // nu dt/h^2 = 3.2: beyond every explicit limit; backward Euler does not mind.
-const std::string board = R"(title = "Large steps"
-claim = "Explicit steps diverge, implicit ones do not"
-suite = "deep"
-[scene]
-flow = "couette"
-height = 1e-3
-plate_velocity = 1e-4
-[fluid]
-kinematic_viscosity = 1e-6
-pressure = false
-[discretisation]
-cells = 8
-[time]
-dt = 0.05
-outputs = [5.0]
-[matrix]
+const std::string board = study_text("Large steps", "Explicit steps diverge, implicit ones do not",
+                                     couette_scene("cells = 8", "dt = 0.05\noutputs = [5.0]") + R"([matrix]
 basis = ["linear"]
 transfer = ["flip", "apic"]
 stepping = ["usf", "implicit-euler"]
@@ -35,13 +22,8 @@ reason = "nu dt/h^2 = 3.2 against 3/2"
 stepping = ["implicit-euler"]
 outcome = "survived"
 reason = "no limit"
-)";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
+)",
+                                     "suite = \"deep\"\n");
 
 }  // namespace
 

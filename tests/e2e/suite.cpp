@@ -3,26 +3,13 @@
 
 #include "tests/catch.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/study_text.hpp"
 
 namespace {
 
-const std::string scene = R"([scene]
-flow = "couette"
-height = 1e-3
-plate_velocity = 1e-4
-[fluid]
-kinematic_viscosity = 1e-6
-pressure = false
-[discretisation]
-cells = 8
-[time]
-dt = 2e-3
-outputs = [0.1, 0.2]
-)";
+const std::string scene = couette_scene();
 
-const std::string study = R"(title = "Tiny"
-claim = "A tiny study"
-)" + scene + R"([ladder]
+const std::string study = study_text("Tiny", "A tiny study", scene + R"([ladder]
 axis = "space"
 cells = [8, 16, 32]
 theoretical = 2
@@ -43,13 +30,7 @@ title = "Tiny, and second order"
 kind = "profiles"
 variants = ["usf"]
 title = "Tiny profiles"
-)";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
+)");
 
 std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));

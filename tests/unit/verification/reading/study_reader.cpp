@@ -1,11 +1,10 @@
 #include "verification/reading/study_reader.hpp"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
-#include "tests/catch.hpp"
+#include "tests/study_text.hpp"
+#include "tests/unit/verification/read_text.hpp"
 #include "verification/checks/check_reader.hpp"
 #include "verification/config/config_error.hpp"
 
@@ -13,22 +12,8 @@ using namespace verification;
 
 namespace {
 
-const std::string good = R"(title = "T"
-claim = "C"
-suite = "quick"
-[scene]
-flow = "couette"
-height = 1e-3
-plate_velocity = 1e-4
-[fluid]
-kinematic_viscosity = 1e-6
-pressure = false
-[discretisation]
-cells = 8
-[time]
-dt = 1e-3
-outputs = [0.01, 0.02]
-[ladder]
+const std::string good =
+    study_text("T", "C", couette_scene("cells = 8", "dt = 1e-3\noutputs = [0.01, 0.02]") + R"([ladder]
 axis = "space"
 cells = [8, 16]
 theoretical = 2
@@ -42,23 +27,15 @@ kind = "order"
 lower = 1.9
 upper = 2.1
 reason = "theory"
-)";
+)",
+               "suite = \"quick\"\n");
 
 std::string with(const std::string& from, const std::string& to) {
-  std::string text = good;
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
+  return replaced(good, from, to);
 }
 
 Study read(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "mpm-verify-reader-test.toml";
-  std::ofstream(file) << text;
-  struct Remove {
-    std::filesystem::path file;
-    ~Remove() { std::filesystem::remove(file); }
-  } remove{file};
-  return read_study(file);
+  return read_study_text(text, "reader-test");
 }
 
 }  // namespace
@@ -66,8 +43,8 @@ Study read(const std::string& text) {
 TEST_CASE("a study expands to its variants times its ladder, the step shrinking with the square of h") {
   const Study study = read(good);
   REQUIRE(study.runs.size() == 4);
-  CHECK(study.runs[0].run == "mpm-verify-reader-test.a.n8");
-  CHECK(study.runs[3].run == "mpm-verify-reader-test.b.n16");
+  CHECK(study.runs[0].run == "reader-test.a.n8");
+  CHECK(study.runs[3].run == "reader-test.b.n16");
   CHECK(study.runs[1].scene.time_step.dt == 1e-3 / 4);
   CHECK(study.runs[3].scene.scheme.stepping == mpm::Scheme::Stepping::Musl);
   CHECK(study.runs[1].step == 1e-3 / 16);
@@ -86,7 +63,7 @@ TEST_CASE("a scene's text reproduces it") {
 TEST_CASE("studies that prove nothing, or say what nobody reads, are refused with file and key") {
   const auto refused = [](const std::string& text, const std::string& names) {
     CHECK_THROWS_AS(read(text), ConfigError);
-    CHECK_THROWS_WITH(read(text), contains("mpm-verify-reader-test.toml"));
+    CHECK_THROWS_WITH(read(text), contains("reader-test.toml"));
     CHECK_THROWS_WITH(read(text), contains(names));
   };
   refused(with("reason = \"theory\"", ""), "reason");
@@ -160,14 +137,13 @@ reason = "theory"
   const Flow& flow = *study.runs[0].scene.flow;
   CHECK(flow.velocity_scale_at(1) == Approx(std::sqrt(2.0) * std::exp(-0.02 * 39.47841760435743)));
 
-  const auto replaced = [&](const std::string& from, const std::string& to) {
-    std::string text = scene;
-    return text.replace(text.find(from), from.size(), to);
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    return replaced(scene, from, to);
   };
-  CHECK_THROWS_WITH(read(replaced("[0.2, 0.05]", "[0.05, 0.2]")), contains("coarse to fine"));
-  CHECK_THROWS_WITH(read(replaced("[0.2, 0.05]", "[0.7, 0.2]")), contains("half the speed of sound"));
-  CHECK_THROWS_WITH(read(replaced("reset_every = 7", "reset_every = -1")), contains("scheme.reset_every"));
-  CHECK_THROWS_WITH(read(replaced("reset_every = 7", "reset_strain = 0")), contains("scheme.reset_strain"));
-  CHECK_THROWS_WITH(read(replaced("end = 0.01", "end = 0.01\nstart = 0.005")), contains("time.start"));
-  CHECK_THROWS_WITH(read(replaced("density = 900", "pressure = false")), contains("pressure"));
+  CHECK_THROWS_WITH(read(changed("[0.2, 0.05]", "[0.05, 0.2]")), contains("coarse to fine"));
+  CHECK_THROWS_WITH(read(changed("[0.2, 0.05]", "[0.7, 0.2]")), contains("half the speed of sound"));
+  CHECK_THROWS_WITH(read(changed("reset_every = 7", "reset_every = -1")), contains("scheme.reset_every"));
+  CHECK_THROWS_WITH(read(changed("reset_every = 7", "reset_strain = 0")), contains("scheme.reset_strain"));
+  CHECK_THROWS_WITH(read(changed("end = 0.01", "end = 0.01\nstart = 0.005")), contains("time.start"));
+  CHECK_THROWS_WITH(read(changed("density = 900", "pressure = false")), contains("pressure"));
 }

@@ -1,14 +1,12 @@
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
-#include "tests/catch.hpp"
+#include "tests/study_text.hpp"
+#include "tests/unit/verification/read_text.hpp"
 #include "verification/checks/chatter_check.hpp"
 #include "verification/checks/check_reader.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/reading/scoreboard_reader.hpp"
-#include "verification/reading/study_reader.hpp"
 #include "verification/runs/scores.hpp"
 
 using namespace verification;
@@ -17,22 +15,8 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-const std::string good = R"(title = "T"
-claim = "C"
-suite = "deep"
-[scene]
-flow = "couette"
-height = 1e-3
-plate_velocity = 1e-4
-[fluid]
-kinematic_viscosity = 1e-6
-pressure = false
-[discretisation]
-cells = 8
-[time]
-dt = 1e-3
-outputs = [0.02]
-[matrix]
+const std::string good =
+    study_text("T", "C", couette_scene("cells = 8", "dt = 1e-3\noutputs = [0.02]") + R"([matrix]
 basis = ["linear", "cubic"]
 transfer = ["flip", "pic"]
 stepping = ["usf"]
@@ -58,23 +42,15 @@ basis = ["cubic"]
 transfer = ["pic"]
 outcome = "diverged"
 reason = "made up"
-)";
+)",
+               "suite = \"deep\"\n");
 
 std::string with(const std::string& from, const std::string& to) {
-  std::string text = good;
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
+  return replaced(good, from, to);
 }
 
 Study read(const std::string& text) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "mpm-verify-board-test.toml";
-  std::ofstream(file) << text;
-  struct Remove {
-    std::filesystem::path file;
-    ~Remove() { std::filesystem::remove(file); }
-  } remove{file};
-  return read_study(file);
+  return read_study_text(text, "board-test");
 }
 
 /// A run of the study's first scheme that ended with an error and an energy ratio.
@@ -111,7 +87,7 @@ TEST_CASE("a scoreboard expects something of every scheme, the last pattern that
 TEST_CASE("a scoreboard that leaves something open is refused with file, key and remedy") {
   const auto refused = [](const std::string& text, const std::string& names) {
     CHECK_THROWS_AS(read(text), ConfigError);
-    CHECK_THROWS_WITH(read(text), contains("mpm-verify-board-test.toml"));
+    CHECK_THROWS_WITH(read(text), contains("board-test.toml"));
     CHECK_THROWS_WITH(read(text), contains(names));
   };
   refused(with("[[expect]]\noutcome = \"survived\"\nreason = \"stable\"\n", ""),

@@ -11,8 +11,8 @@
 
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/content_hash.hpp"
-#include "tests/catch.hpp"
 #include "tests/scratch_directory.hpp"
+#include "tests/study_text.hpp"
 #include "verification/reading/study_reader.hpp"
 #include "verification/runs/run_simulation.hpp"
 #include "verification/suite/run_entry.hpp"
@@ -22,33 +22,19 @@ using namespace verification;
 
 namespace {
 
-const std::string tiny = R"(title = "Tiny"
-claim = "A tiny study"
-[scene]
-flow = "couette"
-height = 1e-3
-plate_velocity = 1e-4
-[fluid]
-kinematic_viscosity = 1e-6
-pressure = false
-[discretisation]
-cells = 4
-[time]
-dt = 5e-3
-outputs = [0.1, 0.2]
-[[check]]
+const std::string tiny = study_text(
+    "Tiny", "A tiny study", couette_scene("cells = 4", "dt = 5e-3\noutputs = [0.1, 0.2]") + R"([[check]]
 kind = "error"
 upper = 1.0
 reason = "a test of the machinery, not of accuracy"
-)";
+)");
 
 Study study_of(const ScratchDirectory& scratch, const std::string& name, const std::string& text) {
   return read_study(scratch.write(name + ".toml", text));
 }
 
 std::string with(const std::string& from, const std::string& to) {
-  std::string text = tiny;
-  return text.replace(text.find(from), from.size(), to);
+  return replaced(tiny, from, to);
 }
 
 void flip_byte(const std::filesystem::path& file, std::size_t from_end) {
