@@ -1,11 +1,7 @@
 #pragma once
 
-#include "solver/grid/stencil.hpp"
-#include "solver/kernel/isa.hpp"
-#include "solver/lanes/lane_walls.hpp"
-#include "solver/scene/seeding.hpp"
+#include "solver/lanes/lane_passes.hpp"
 #include "solver/simulation.hpp"
-#include "solver/transfer/motion.hpp"
 
 namespace mpm {
 
@@ -21,243 +17,47 @@ inline bool lanes_cover(const Scene& scene, const Scheme& scheme) {
 }
 
 /// The material point method on the vector kernels: the same schemes as Solver, an order of magnitude faster.
-/// Loops over particles and nodes are the kernel's; walls, forces from outside and the order of a step are
-/// told here.
 template <class Basis>
 class LaneSolver final : public Simulation {
  public:
   LaneSolver(const Scene& scene, Scheme::Stepping stepping, double flip_fraction, int threads)
-      : scene_(scene),
-        stepping_(stepping),
-        flip_fraction_(flip_fraction),
-        grid_(scene_, Basis::degree),
-        layout_(scene_, grid_, Basis::degree),
-        team_(threads),
-        sweep_(layout_.lines(), stepping == Scheme::Stepping::Musl ? 4 : 3),
-        wall_nodes_(scene_, grid_),
-        walls_(scene_, grid_, wall_nodes_, layout_, sweep_.shares()),
-        particles_(started_particles()),
-        kernel_(started_kernel()),
-        nodes_(kernel_->nodes()) {
-    for (const double m : particles_.mass) total_mass_ += m;
-    update_all_stress(scene.start);
-    is_stale_ = true;
-  }
+      : stepping_(stepping), passes_(scene, stepping, flip_fraction, threads) {}
 
   void advance(double t, double dt) override {
-    is_stale_ = true;
-    time_ = t + dt;
     switch (stepping_) {
       case Scheme::Stepping::Usl:
-        return step_usl(t, dt);
+        return step_usl(passes_, t, dt);
       case Scheme::Stepping::Musl:
-        return step_musl(t, dt);
+        return step_musl(passes_, t, dt);
       default:
-        return step_usf(t, dt);
+        return step_usf(passes_, t, dt);
     }
   }
 
-  [[nodiscard]] std::optional<std::string> breakdown() const override { return breakdown_; }
-
-  /// In the order of seeding, written out from the kernel when it has moved on.
-  [[nodiscard]] const Particles& particles() const override {
-    if (is_stale_) gather_particles();
-    return particles_;
-  }
+  [[nodiscard]] std::optional<std::string> breakdown() const override { return passes_.breakdown(); }
+  [[nodiscard]] const Particles& particles() const override { return passes_.particles(); }
 
   [[nodiscard]] VectorField grid_field(const VectorField& points, double t) const override {
-    const VectorField nodal = mapped_velocity(t);
+    const VectorField nodal = passes_.mapped_velocity(t);
     VectorField velocities;
     velocities.reserve(points.size());
-    for (const Vec2& point : points) velocities.push_back(interpolate<Basis>(grid_, nodal, point));
+    for (const Vec2& point : points) velocities.push_back(interpolate<Basis>(passes_.grid(), nodal, point));
     return velocities;
   }
 
   [[nodiscard]] std::vector<Mat2> grid_gradient(const VectorField& points, double t) const override {
-    const VectorField nodal = mapped_velocity(t);
+    const VectorField nodal = passes_.mapped_velocity(t);
     std::vector<Mat2> gradients;
     gradients.reserve(points.size());
-    for (const Vec2& point : points) gradients.push_back(gradient<Basis>(grid_, nodal, point));
+    for (const Vec2& point : points) gradients.push_back(gradient<Basis>(passes_.grid(), nodal, point));
     return gradients;
   }
 
-  [[nodiscard]] Totals totals() const override { return totals_of(particles(), impulse_); }
+  [[nodiscard]] Totals totals() const override { return totals_of(passes_.particles(), passes_.impulse()); }
 
  private:
-  /// Update stress first: strain rate from the velocity at the start of the step.
-  void step_usf(double t, double dt) {
-    const Drive drive = drive_of(t, dt);
-    sweep_.run(
-        team_, [&](const Part& part) { particles_to_grid(part, drive); },
-        [&](const Part& part) {
-          kernel_->update_stress_and_accelerate(part, drive.body_acceleration, dt);
-          impose_acceleration(part, drive);
-        },
-        [&](const Part& part) { kernel_->take_and_move(part, flip_fraction_, dt); });
-    settle(drive);
-  }
-
-  /// Update stress last: strain rate from the nodal velocity at the end of the step.
-  void step_usl(double t, double dt) {
-    const Drive drive = drive_of(t, dt);
-    sweep_.run(
-        team_, [&](const Part& part) { particles_to_grid(part, drive); },
-        [&](const Part& part) { accelerate(part, drive); },
-        [&](const Part& part) {
-          kernel_->update_stress(part, NodalVelocity::Current, dt);
-          kernel_->take_and_move(part, flip_fraction_, dt);
-        });
-    settle(drive);
-  }
-
-  /// Modified update stress last: strain rate from the updated particles mapped back to the grid, with the
-  /// shape functions of the start of the step.
-  void step_musl(double t, double dt) {
-    const Drive drive = drive_of(t, dt);
-    const LaneWalls::Values wall_at_end = walls_.velocity(t + dt);
-    sweep_.run(
-        team_, [&](const Part& part) { particles_to_grid(part, drive); },
-        [&](const Part& part) { accelerate(part, drive); },
-        [&](const Part& part) {
-          kernel_->take(part, flip_fraction_, dt);
-          kernel_->map_updated_velocity(part);
-          walls_.impose_velocity(part, wall_at_end, nodes_.mapped);
-        },
-        [&](const Part& part) {
-          kernel_->update_stress(part, NodalVelocity::Mapped, dt);
-          kernel_->move(part, dt);
-        });
-    settle(drive);
-  }
-
-  /// What acts on the fluid from outside in a step.
-  struct Drive {
-    double dt;
-    double body_acceleration[2];  ///< by component of the kernel
-    LaneWalls::Values wall_velocity, wall_acceleration;
-  };
-  [[nodiscard]] Drive drive_of(double t, double dt) const {
-    const Vec2 b = scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero());
-    return {dt, {b[layout_.axis_of(0)], b[layout_.axis_of(1)]}, walls_.velocity(t), walls_.acceleration(t)};
-  }
-
-  /// P2G at the start of a step. What the walls impose reaches the particles in so far as they take the
-  /// grid's velocity.
-  void particles_to_grid(const Part& part, const Drive& drive) {
-    kernel_->map_velocity(part);
-    walls_.impose_velocity(part, drive.wall_velocity, nodes_, 1 - flip_fraction_);
-  }
-
-  /// With the stress that the particles have.
-  void accelerate(const Part& part, const Drive& drive) {
-    kernel_->accelerate(part, drive.body_acceleration, drive.dt);
-    impose_acceleration(part, drive);
-  }
-
-  void impose_acceleration(const Part& part, const Drive& drive) {
-    walls_.impose_acceleration(part, drive.wall_acceleration, nodes_, drive.dt);
-  }
-
-  /// What is left to do when all particles have moved.
-  void settle(const Drive& drive) {
-    const Motion motion = kernel_->settle();
-    if (!breakdown_) breakdown_ = breakdown_of(motion);
-    for (int c : {0, 1}) impulse_[layout_.axis_of(c)] += drive.dt * total_mass_ * drive.body_acceleration[c];
-    impulse_ += walls_.take_impulse();
-  }
-
-  /// P2G of everything with the walls' velocity at t.
-  void map_all(double t) const {
-    const Part all = Sweep::whole(layout_.lines());
-    kernel_->map_velocity(all);
-    walls_.impose_velocity(all, walls_.velocity(t), nodes_.velocity);
-  }
-
-  /// The stress of the present state everywhere.
-  void update_all_stress(double t) const {
-    map_all(t);
-    kernel_->update_stress(Sweep::whole(layout_.lines()), NodalVelocity::Current, 0);
-  }
-
-  /// Seeded, with the walls' share of an impulsive start.
-  [[nodiscard]] Particles started_particles() const {
-    Particles particles = seed_particles(scene_);
-    const VectorField jump = wall_nodes_.initial_jump(grid_);
-    for (std::size_t p = 0; p < particles.size(); ++p)
-      particles.velocity[p] += interpolate<Basis>(grid_, jump, particles.position[p]);
-    return particles;
-  }
-
-  [[nodiscard]] std::unique_ptr<Kernel> started_kernel() {
-    std::vector<PointState> points(particles_.size());
-    for (std::size_t p = 0; p < points.size(); ++p)
-      for (int c : {0, 1}) {
-        points[p].position[c] = particles_.position[p][layout_.axis_of(c)];
-        points[p].velocity[c] = particles_.velocity[p][layout_.axis_of(c)];
-        points[p].mass = particles_.mass[p];
-        points[p].density = particles_.density[p];
-      }
-    std::array<std::vector<double>, 2> polynomials;
-    KernelSetup setup{
-        Basis::degree,         layout_.is_strip(),    {},
-        scene_.fluid.rheology, scene_.fluid.pressure, {scene_.fluid.bulk_modulus, 1 / scene_.fluid.density},
-        points.data(),         points.size(),         sweep_.shares()};
-    for (int c : {0, 1}) {
-      const auto a = static_cast<std::size_t>(c);
-      constexpr int size = (Basis::degree + 1) * (Basis::degree + 1);
-      for (int cell = 0; cell < layout_.axis(c).cells; ++cell)
-        polynomials[a].insert(polynomials[a].end(), layout_.axis(c).polynomials(cell),
-                              layout_.axis(c).polynomials(cell) + size);
-      setup.axis[a] = {layout_.axis(c).cells, layout_.axis(c).periodic, layout_.axis(c).length,
-                       layout_.axis(c).inverse_h, polynomials[a].data()};
-    }
-    return make_kernel(setup);
-  }
-
-  /// The particles' velocity mapped to the grid with the walls' imposed, as Grid numbers nodes.
-  [[nodiscard]] VectorField mapped_velocity(double t) const {
-    map_all(t);
-    VectorField velocity(grid_.size());
-    for (int j = 0; j < layout_.axis(1).count(); ++j)
-      for (int i = 0; i < layout_.axis(0).count(); ++i)
-        for (int c : {0, 1})
-          velocity[layout_.grid_index(i, j)][layout_.axis_of(c)] = nodes_.velocity[c][layout_.node(i, j)];
-    return velocity;
-  }
-
-  /// Update stress first keeps no stress: a reader gets that of the present state.
-  void gather_particles() const {
-    if (stepping_ == Scheme::Stepping::Usf) update_all_stress(time_);
-    std::vector<PointState> points(particles_.size());
-    kernel_->gather(points.data());
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      for (int c : {0, 1}) {
-        particles_.position[p][layout_.axis_of(c)] = points[p].position[c];
-        particles_.velocity[p][layout_.axis_of(c)] = points[p].velocity[c];
-        particles_.stress[p](layout_.axis_of(c), layout_.axis_of(c)) = points[p].stress[c];
-      }
-      particles_.density[p] = points[p].density;
-      particles_.stress[p](0, 1) = particles_.stress[p](1, 0) = points[p].stress[2];
-    }
-    is_stale_ = false;
-  }
-
-  const Scene scene_;  // its own: whoever made it may be gone
   Scheme::Stepping stepping_;
-  double flip_fraction_;
-  Grid grid_;  // geometry alone
-  LaneLayout layout_;
-  ThreadTeam team_;
-  Sweep sweep_;
-  WallNodes wall_nodes_;
-  LaneWalls walls_;
-  mutable Particles particles_;  // a copy, for readers
-  mutable bool is_stale_ = false;
-  std::unique_ptr<Kernel> kernel_;
-  NodeFields nodes_;
-  double total_mass_ = 0, time_ = 0;
-  Vec2 impulse_ = Vec2::Zero();
-  std::optional<std::string> breakdown_;
+  LanePasses<Basis> passes_;
 };
 
 }  // namespace mpm
