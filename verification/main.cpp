@@ -10,6 +10,7 @@
 #include "solver/scene/scene.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/reading/study_folder.hpp"
 
 namespace {
 
@@ -29,11 +30,13 @@ int dispatch(int argc, char** argv) {
       "Exit codes: 0 all checks pass, 1 a check failed, 2 usage or configuration, 3 internal or solver "
       "error.");
 
-  std::string studies = build_info::studies;
+  std::string studies;
+  const char* studies_help =
+      "Directory of the studies (default: $MPM_STUDIES, else beside the program, else where it was built)";
   ListOptions list;
   auto* list_app = app.add_subcommand("list", "Studies, what each claims, and what it costs");
   list_app->add_option("--suite", list.suite, "quick, full or deep (default: all)");
-  list_app->add_option("--studies", studies, "Directory of the studies");
+  list_app->add_option("--studies", studies, studies_help);
 
   RunOptions run;
   auto* run_app = app.add_subcommand("run", "Run studies and judge them");
@@ -43,7 +46,7 @@ int dispatch(int argc, char** argv) {
   run_app->add_option("--out", run.out, "Directory of the results")->capture_default_str();
   run_app->add_option("--jobs", run.jobs, "Runs at the same time (default: one a core)")
       ->check(CLI::Range(1, 1024));
-  run_app->add_option("--studies", studies, "Directory of the studies");
+  run_app->add_option("--studies", studies, studies_help);
   auto* no_cache = run_app->add_flag("--no-cache", run.no_cache,
                                      "Run everything; neither use nor fill the cache of finished runs");
   run_app->add_flag("--fresh", run.fresh, "Run everything, and replace what the cache of finished runs holds")
@@ -54,6 +57,11 @@ int dispatch(int argc, char** argv) {
                     "run, with the same bytes as without the stop. Plain `run` does so too; --resume refuses "
                     "a directory in "
                     "which none was begun");
+
+  run_app->add_flag(
+      "--keep-profiles", run.keep_profiles,
+      "Keep the profiles of every run (without: of those that a figure draws, and of studies that "
+      "fail)");
 
   std::string report_dir;
   auto* report_app =
@@ -104,7 +112,10 @@ int dispatch(int argc, char** argv) {
   }
   mpm::use_threads(threads);
   mpm::use_isa(isa.empty() ? mpm::current_isa() : isa);  // a mistake in the environment shows now
-  list.studies = run.studies = studies;
+  if (*list_app || *run_app) {
+    if (studies.empty()) studies = studies_directory(build_info::studies).string();
+    list.studies = run.studies = studies;
+  }
   run.command_line = scene.command_line = joined(argc, argv);
   if (*list_app) return list_command(list);
   if (*run_app) return run_command(run);

@@ -69,16 +69,17 @@ Figure history_figure(const std::filesystem::path& dir, const FigureRecord& reco
       script.line(thinned(exact[r], line_points), one_line ? "#000000" : colour, "", 1.3);
     const double phase = static_cast<double>(r) / static_cast<double>(runs.size());
     script.points(evenly_in_time(measured[r], marks_a_run, phase), colour, curve_mark(r).filled,
-                  runs.size() == 1 && record.labels.empty() ? "MPM" : runs[r].label, 0.7);
+                  runs.size() == 1 && record.labels.empty() ? method_of(runs) : runs[r].label, 0.7);
   }
   Figure figure;
   if (script.empty()) return figure;
   if (any_exact) script.legend_line(one_line ? "#000000" : "#555555", solution_name(runs), 1.3);
   figure.script = script.text(record.figure);
-  figure.caption =
-      any_exact ? fmt::format("Lines: {} solution. Marks: MPM, about 40 of its recorded times.",
-                              solution_name(runs))
-                : std::string("Marks: MPM, about 40 of its recorded times; no exact solution is known.");
+  figure.caption = any_exact
+                       ? fmt::format("Lines: {} solution. Marks: {}, about 40 of its recorded times.",
+                                     solution_name(runs), method_of(runs))
+                       : fmt::format("Marks: {}, about 40 of its recorded times; no exact solution is known.",
+                                     method_of(runs));
   return figure;
 }
 

@@ -44,7 +44,8 @@ Figure pressure_figure(const std::filesystem::path& dir, const FigureRecord& rec
   if (script.empty()) return figure;
   if (any_exact) script.legend_line(one_line ? "#000000" : "#555555", "exact", 1.3);
   figure.script = script.text(record.figure);
-  figure.caption = fmt::format("t = {:.4g} s. Line: exact solution. Marks: MPM particles.", record.t);
+  figure.caption =
+      fmt::format("t = {:.4g} s. Line: exact solution. Marks: particles of {}.", record.t, method_of(runs));
   return figure;
 }
 

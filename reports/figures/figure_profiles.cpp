@@ -162,16 +162,17 @@ Figure profiles_figure(const std::filesystem::path& dir, const FigureRecord& rec
     for (const std::string& location : locations) {
       const std::string where = location == "grid" ? "grid nodes" : location;
       script.legend_mark(by_time ? "#555555" : curve_colour(r), mark_of(locations, location, r),
-                         (by_time ? "MPM" : runs[r].label) + ", " + where);
+                         (by_time ? method_of(runs) : runs[r].label) + ", " + where);
     }
   }
   if (any_exact) script.legend_line(one_line ? "#000000" : "#555555", solution_name(runs), 1.3);
   figure.script = script.text(record.figure);
   figure.caption =
       any_exact
-          ? fmt::format("Lines: {} solution. Marks: MPM, one column of points, thinned where dense.",
-                        solution_name(runs))
-          : std::string("Marks: MPM, one column of points, thinned where dense; no exact solution is known.");
+          ? fmt::format("Lines: {} solution. Marks: {}, one column of points, thinned where dense.",
+                        solution_name(runs), method_of(runs))
+          : fmt::format("Marks: {}, one column of points, thinned where dense; no exact solution is known.",
+                        method_of(runs));
   if (!by_time) {
     figure.caption += " Times:";
     for (const double t : times) figure.caption += fmt::format(" {:.4g}", t);

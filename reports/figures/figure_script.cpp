@@ -174,8 +174,8 @@ std::string panels_text(const std::string& name, const std::string& title, std::
   const std::size_t title_rows =
       1 + static_cast<std::size_t>(std::count(heading.begin(), heading.end(), '\n'));
   const double legend_height = 24.0 * static_cast<double>(legend_rows) + 10,
-               title_height = 24.0 * static_cast<double>(title_rows) + 34;
-  const double width = 1120, height = 330.0 * static_cast<double>(rows) + legend_height + title_height + 50;
+               title_height = 24.0 * static_cast<double>(title_rows) + 52;
+  const double width = 1120, height = 330.0 * static_cast<double>(rows) + legend_height + title_height + 66;
 
   std::string script = fmt::format(
       "# Draws {0}.svg and {0}.png here: gnuplot {0}.gp\n"
@@ -197,7 +197,9 @@ std::string panels_text(const std::string& name, const std::string& title, std::
     script += named(panel.data_);
     drawing +=
         fmt::format("set title ({}) noenhanced\nset xlabel ({}) noenhanced\nset ylabel ({}) noenhanced\n",
-                    gnuplot_text(panel.title_), gnuplot_text(panel.x_label_),
+                    gnuplot_text(panel.title_),
+                    // Under the lowest panel of a column; the titles of the next row would cover others.
+                    gnuplot_text(p + columns >= panels.size() ? panel.x_label_ : ""),
                     gnuplot_text(p % columns == 0 ? panel.y_label_ : ""));
     drawing += p == 0 ? fmt::format(
                             "set key at screen 0.5,{:.4f} center bottom vertical maxrows {} Left "
@@ -215,7 +217,7 @@ std::string panels_text(const std::string& name, const std::string& title, std::
       "set multiplot layout {},{} title {} noenhanced margins screen 0.075,0.985,{:.4f},{:.4f} spacing "
       "screen "
       "0.055,{:.4f}\n",
-      rows, columns, gnuplot_text(heading), (legend_height + 58) / height, 1 - title_height / height,
+      rows, columns, gnuplot_text(heading), (legend_height + 74) / height, 1 - title_height / height,
       95 / height);
   script += fmt::format(
       "set terminal svg size {:.0f},{:.0f} enhanced font 'Helvetica,Arial,sans-serif,14' background "

@@ -36,8 +36,8 @@ Figure shear_figure(const std::filesystem::path& dir, const FigureRecord& record
   if (script.empty()) return figure;
   if (any_exact) script.legend_line("#555555", solution_name(runs), 1.3);
   figure.script = script.text(record.figure);
-  figure.caption =
-      fmt::format("t = {:.4g} s. Lines: reference solution. Marks: MPM at cell centres.", record.t);
+  figure.caption = fmt::format("t = {:.4g} s. Lines: reference solution. Marks: {} at cell centres.",
+                               record.t, method_of(runs));
   return figure;
 }
 

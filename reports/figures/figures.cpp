@@ -44,6 +44,10 @@ std::vector<LabelledRun> runs_of(const FigureRecord& record, const Results& resu
                               labels.size(), chosen.size()));
   }
   for (std::size_t i = 0; i < labels.size(); ++i) chosen[i].label = labels[i];
+  // The built-in solver's variants are told apart by their names alone; whoever else made points is named.
+  for (LabelledRun& run : chosen)
+    if (run.run->method != RunRecord().method && run.label != run.run->method)
+      run.label += (run.label.empty() ? "" : ", ") + run.run->method;
   return chosen;
 }
 
@@ -51,6 +55,15 @@ std::string solution_name(const std::vector<LabelledRun>& runs) {
   const bool newtonian = std::all_of(runs.begin(), runs.end(),
                                      [](const LabelledRun& run) { return run.run->fluid == "newtonian"; });
   return newtonian ? "exact" : "reference";
+}
+
+std::string method_of(const std::vector<LabelledRun>& runs) {
+  std::vector<std::string> methods;
+  for (const LabelledRun& run : runs)
+    if (std::ranges::count(methods, run.run->method) == 0) methods.push_back(run.run->method);
+  std::string text;
+  for (const std::string& method : methods) text += (text.empty() ? "" : " and ") + method;
+  return text;
 }
 
 std::vector<std::string> locations_of(const FigureRecord& record) {

@@ -50,6 +50,8 @@ struct LabelledRun {
 /// What the lines are: "exact" where every fluid is Newtonian, else "reference" (computed, to a stated
 /// error).
 std::string solution_name(const std::vector<LabelledRun>& runs);
+/// Whose points they are: "MPM", or what the runs say, joined by " and ".
+std::string method_of(const std::vector<LabelledRun>& runs);
 std::vector<LabelledRun> runs_of(const FigureRecord& record, const Results& results);
 
 /// Locations asked for; "grid" and "particles" if none is named.

@@ -81,7 +81,7 @@ std::string html_matrix(const std::vector<MatrixRecord>& matrix) {
   std::string notes;
   for (std::size_t i = 0; i < reasons.size(); ++i)
     notes += fmt::format("<p class=\"faint\"><sup>{}</sup> {}.</p>\n", i + 1, html_text(reasons[i]));
-  return "<section>\n<h2 id=\"matrix\">Order matrix</h2>\n"
+  return "<section>\n<h3 id=\"matrix\">Order matrix</h3>\n"
          "<p class=\"faint\">Each cell: verdict, observed L2 order with its 95 % interval, the order that "
          "theory gives, and "
          "the smallest relative error reached (time: difference of successive dt on one mesh).</p>\n" +

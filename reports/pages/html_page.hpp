@@ -5,7 +5,7 @@
 
 namespace reports {
 
-/// A whole HTML page without external resources; `body` goes into its main element as it is.
+/// A whole HTML page without external resources; `body` goes in as it is, the script after it.
 std::string html_page(const std::string& title, const std::string& body);
 
 /// Text made literal for HTML, bad bytes replaced.
@@ -14,8 +14,8 @@ std::string html_text(const std::string& text);
 /// A fragment identifier made from a study's name: letters, digits and dashes after "study-".
 std::string html_anchor(const std::string& study);
 
-/// Base64 with padding (RFC 4648).
-std::string base64(std::string_view bytes);
+/// A word for an attribute that holds a list of words: blanks become dashes.
+std::string html_token(const std::string& text);
 
 /// A table that scrolls sideways by itself on a narrow screen, or, with the class "cards", shows each row as
 /// a block there. `head` and `rows` are markup.

@@ -101,7 +101,7 @@ std::string notes(const std::vector<ScoreRecord>& scores, const CaseSummary& c) 
     band = fmt::format(", or with an energy ratio outside {} to {}", number(any->energy_lower),
                        number(any->energy_upper));
   std::string text = fmt::format(
-      "<h3 id=\"board-{}\">{}</h3>\n<p>{} survived, {} degraded, {} diverged, {} unexpected. Degraded: error "
+      "<h4 id=\"board-{}\">{}</h4>\n<p>{} survived, {} degraded, {} diverged, {} unexpected. Degraded: error "
       "({}) above {}{}. <span class=\"faint\">Why: {}. Study <a href=\"#{}\">{}</a>.</span></p>\n<ul>\n",
       html_anchor(c.study), html_text(c.hard_case), c.survived, c.degraded, c.diverged, c.unexpected,
       html_text(any->location), number(any->degraded_above), band, html_text(any->thresholds),
@@ -118,7 +118,7 @@ std::string html_scoreboard(const std::vector<ScoreRecord>& scores) {
   if (scores.empty()) return "";
   const std::vector<CaseSummary> cases = summarise(scores);
   std::string text =
-      "<section>\n<h2 id=\"scoreboard\">Stability scoreboard</h2>\n"
+      "<section>\n<h3 id=\"scoreboard\">Stability scoreboard</h3>\n"
       "<p>Every scheme on every hard case: "
       "<span class=\"fate survived\">✓ error</span> survived, "
       "<span class=\"fate degraded\">~ error</span> degraded, "
@@ -128,7 +128,7 @@ std::string html_scoreboard(const std::vector<ScoreRecord>& scores) {
       "the "
       "run broke down; energy ratio (hover): kinetic energy of the particles over the exact "
       "solution's at the same places, - for a fluid at rest.</span></p>\n" +
-      board(scores, cases) + "<details open><summary>What was expected, and why</summary>\n";
+      board(scores, cases) + "<details><summary>What was expected, and why</summary>\n";
   for (const CaseSummary& c : cases) text += notes(scores, c);
   return text + "</details>\n</section>\n";
 }

@@ -95,7 +95,7 @@ std::string html_stability(const std::vector<StabilityRecord>& limits) {
     }
     rows += "</tr>\n";
   }
-  return "<section>\n<h2 id=\"stability\">Stability limits</h2>\n<p class=\"faint\">" +
+  return "<section>\n<h3 id=\"stability\">Stability limits</h3>\n<p class=\"faint\">" +
          html_text(explanation) + " \"none\": nothing grew up to the largest step tried.</p>\n" +
          html_table(head, rows) + "</section>\n";
 }

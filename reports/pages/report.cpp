@@ -8,6 +8,7 @@
 #include "reports/pages/junit.hpp"
 #include "reports/pages/report_html.hpp"
 #include "reports/pages/report_markdown.hpp"
+#include "reports/pages/summary.hpp"
 #include "reports/records/report_data.hpp"
 #include "reports/records/result_files.hpp"
 
@@ -69,12 +70,14 @@ ReportOutcome write_report(const std::filesystem::path& dir, const FigureOptions
   ReportData data;
   data.results = read_results(dir);
   data.provenance = read_provenance(dir);
+  data.changes = read_changes(dir);
   warn_of_contradictions(data);
   if (!data.provenance)
     data.warnings.emplace_back("no provenance.json: what made these results is not known");
   draw_figures(dir, data, options);
 
   write_file(dir / "report.md", markdown_report(data));
+  write_file(dir / "summary.md", markdown_summary(data));
   write_file(dir / "report.html", html_report(dir, data));
   write_file(dir / "junit.xml", junit_report(data.results));
 

@@ -13,7 +13,41 @@ namespace reports {
 struct StudyRecord {
   std::string study, title, claim, suite;
   std::string left_out = {};  ///< what its scenes did without, and the reader may want to know
+  std::string topic = {};     ///< its chapter of the report; "" for none of its own
 };
+
+/// Topic of the chapter that is none: what a suite says it has not verified.
+inline constexpr const char* scope_topic = "scope";
+
+/// chapters.csv: the chapters of the report, in their order. A topic that it does not name has one all the
+/// same.
+struct ChapterRecord {
+  std::string topic;      ///< of the studies that it holds
+  std::string title;      ///< topics of one title share a chapter
+  std::string paragraph;  ///< that it opens with; the first of its topics that has one gives it
+  std::string figure;     ///< shown with it; "" for the first of its studies
+};
+
+/// headlines.csv: what the first screen of the report shows, in its order, as far as the studies are there.
+struct HeadlineRecord {
+  std::string title;   ///< what is measured
+  std::string study;   ///< whose checks say it:
+  std::string check;   ///< those whose names hold this text; "" for all of the study
+  std::string figure;  ///< shown with it; "" for none
+};
+
+/// changes.csv: what is different from the results that lay in the directory before; only there when some
+/// did.
+struct ChangeRecord {
+  std::string file,
+      verdict;       ///< "errors.csv", "worse"; ("provenance.json", "before") is the earlier run itself
+  std::string name;  ///< of the number
+  double before = 0, after = 0;
+  std::string unit, note;
+};
+
+/// Basis, transfer and stepping of a run whose solver is a program of its own: what it does is not known.
+inline constexpr const char* foreign_scheme = "external";
 
 /// runs.csv: one simulation.
 struct RunRecord {
@@ -25,6 +59,8 @@ struct RunRecord {
   std::string status;  ///< "completed" or "diverged at t = ... s: why"
   /// When particles are put back on their lattice: "never", "every 25 steps", ...
   std::string reset = "never";
+  std::string method =
+      "MPM";  ///< whose result it is: a method of the built-in solver, or a foreign solver's name
 };
 
 /// errors.csv: norms of (numerical - exact) velocity, relative to the velocity scale of the flow [-].
@@ -215,6 +251,8 @@ struct FigureRecord {
 /// The content of one result directory, profiles and histories excepted (they are read run by run).
 struct Results {
   std::vector<StudyRecord> studies;
+  std::vector<ChapterRecord> chapters;
+  std::vector<HeadlineRecord> headlines;
   std::vector<RunRecord> runs;
   std::vector<ErrorRecord> errors;
   std::vector<LevelRecord> levels;

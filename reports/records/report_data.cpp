@@ -173,7 +173,8 @@ std::string observed(const CheckRecord& check) {
                          number(check.observed, digits) == number(check.upper, digits))) {
     ++digits;
   }
-  return number(check.observed, digits);
+  // In the last digits the shortest form that reads back: 1e-06, not 9.9999999999999995e-07.
+  return digits < 17 ? number(check.observed, digits) : fmt::format("{}", check.observed);
 }
 
 std::string with_unit(const std::string& value, const CheckRecord& check) {

@@ -22,6 +22,7 @@ struct ReportData {
   Results results;
   std::optional<Provenance> provenance;
   std::vector<ReportFigure> figures;
+  std::optional<std::vector<ChangeRecord>> changes;  ///< since the results that lay here before, if any did
   std::vector<std::string> warnings;
 };
 

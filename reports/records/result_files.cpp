@@ -16,13 +16,36 @@ constexpr auto study_columns = std::make_tuple(  //
     column("title", &StudyRecord::title),        //
     column("claim", &StudyRecord::claim),        //
     column("suite", &StudyRecord::suite),        //
-    column("left_out", &StudyRecord::left_out));
+    column("left_out", &StudyRecord::left_out),  //
+    column("topic", &StudyRecord::topic));
+
+constexpr auto chapter_columns = std::make_tuple(    //
+    column("topic", &ChapterRecord::topic),          //
+    column("title", &ChapterRecord::title),          //
+    column("paragraph", &ChapterRecord::paragraph),  //
+    column("figure", &ChapterRecord::figure));
+
+constexpr auto headline_columns = std::make_tuple(  //
+    column("title", &HeadlineRecord::title),        //
+    column("study", &HeadlineRecord::study),        //
+    column("check", &HeadlineRecord::check),        //
+    column("figure", &HeadlineRecord::figure));
+
+constexpr auto change_columns = std::make_tuple(  //
+    column("file", &ChangeRecord::file),          //
+    column("verdict", &ChangeRecord::verdict),    //
+    column("name", &ChangeRecord::name),          //
+    column("before", &ChangeRecord::before),      //
+    column("after", &ChangeRecord::after),        //
+    column("unit", &ChangeRecord::unit),          //
+    column("note", &ChangeRecord::note));
 
 constexpr auto run_columns = std::make_tuple(    //
     column("run", &RunRecord::run),              //
     column("study", &RunRecord::study),          //
     column("scene", &RunRecord::scene),          //
     column("fluid", &RunRecord::fluid),          //
+    column("method", &RunRecord::method),        //
     column("basis", &RunRecord::basis),          //
     column("transfer", &RunRecord::transfer),    //
     column("stepping", &RunRecord::stepping),    //
@@ -244,6 +267,8 @@ const std::string& require_plain_name(const char* what, const std::string& name)
 Results read_results(const std::filesystem::path& dir) {
   Results results;
   results.studies = read_csv(dir / "studies.csv", study_columns);
+  results.chapters = read_chapters(dir / "chapters.csv");
+  results.headlines = read_headlines(dir / "headlines.csv");
   results.runs = read_csv(dir / "runs.csv", run_columns);
   results.errors = read_csv(dir / "errors.csv", error_columns);
   results.levels = read_csv(dir / "levels.csv", level_columns);
@@ -259,10 +284,29 @@ Results read_results(const std::filesystem::path& dir) {
   return results;
 }
 
+std::vector<ChapterRecord> read_chapters(const std::filesystem::path& file) {
+  return read_csv(file, chapter_columns);
+}
+
+std::vector<HeadlineRecord> read_headlines(const std::filesystem::path& file) {
+  return read_csv(file, headline_columns);
+}
+
+std::optional<std::vector<ChangeRecord>> read_changes(const std::filesystem::path& dir) {
+  if (!std::filesystem::exists(dir / "changes.csv")) return std::nullopt;
+  return read_csv(dir / "changes.csv", change_columns);
+}
+
+void write_changes(const std::filesystem::path& dir, const std::vector<ChangeRecord>& changes) {
+  write_csv(dir / "changes.csv", change_columns, changes);
+}
+
 void write_results(const std::filesystem::path& dir, const Results& results, Durability durability) {
   require_plain_names(results);
   ensure_directory(dir);
   write_csv(dir / "studies.csv", study_columns, results.studies, durability);
+  write_csv(dir / "chapters.csv", chapter_columns, results.chapters, durability);
+  write_csv(dir / "headlines.csv", headline_columns, results.headlines, durability);
   write_csv(dir / "runs.csv", run_columns, results.runs, durability);
   write_csv(dir / "errors.csv", error_columns, results.errors, durability);
   write_csv(dir / "levels.csv", level_columns, results.levels, durability);
@@ -279,9 +323,10 @@ void write_results(const std::filesystem::path& dir, const Results& results, Dur
 void remove_tables(const std::filesystem::path& dir) {
   std::error_code ignored;
   // checks.csv goes first: without it nobody takes what is left for a result.
-  for (const char* name : {"checks.csv", "report.html", "report.md", "junit.xml", "studies.csv", "runs.csv",
-                           "errors.csv", "levels.csv", "orders.csv", "timing.csv", "figures.csv",
-                           "claims.csv", "matrix.csv", "scoreboard.csv", "stability.csv"})
+  for (const char* name : {"checks.csv",  "report.html", "report.pdf",   "report.md",      "summary.md",
+                           "junit.xml",   "studies.csv", "chapters.csv", "headlines.csv",  "changes.csv",
+                           "runs.csv",    "errors.csv",  "levels.csv",   "orders.csv",     "timing.csv",
+                           "figures.csv", "claims.csv",  "matrix.csv",   "scoreboard.csv", "stability.csv"})
     std::filesystem::remove(dir / name, ignored);
   for (const char* part : {".", "profiles", "scenes", "figures"})
     for (const auto& entry : std::filesystem::directory_iterator(dir / part, ignored))

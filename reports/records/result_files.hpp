@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,14 @@ namespace reports {
 /// Every table of `dir` (studies, runs, errors, levels, orders, checks, timing, figures); all must be there.
 /// Names of runs and figures become file names, so anything but a plain name is refused here.
 Results read_results(const std::filesystem::path& dir);
+
+/// The chapters that a file names, in their order. @throws IoError
+std::vector<ChapterRecord> read_chapters(const std::filesystem::path& file);
+std::vector<HeadlineRecord> read_headlines(const std::filesystem::path& file);
+
+/// changes.csv of a result directory; none where nothing lay there before. @throws IoError
+std::optional<std::vector<ChangeRecord>> read_changes(const std::filesystem::path& dir);
+void write_changes(const std::filesystem::path& dir, const std::vector<ChangeRecord>& changes);
 void write_results(const std::filesystem::path& dir, const Results& results,
                    Durability durability = Durability::Synced);
 

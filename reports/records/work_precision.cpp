@@ -67,6 +67,7 @@ std::vector<CostPoint> best_front(std::vector<CostPoint> points, bool by_wall) {
 }
 
 std::string scheme_of(const RunRecord& run) {
+  if (run.basis == foreign_scheme) return run.method;
   return fmt::format("{}, {}, {}{}", run.basis, run.transfer, run.stepping,
                      run.reset == "never" ? "" : ", reset " + run.reset);
 }
@@ -106,7 +107,7 @@ std::string html_cheapest(const Results& results) {
       rows += "<td class=\"w\">" + (point.run ? html_text(described(point)) : "-") + "</td>";
     rows += "</tr>\n";
   }
-  return "<section>\n<h2 id=\"cheapest\">Cheapest way to an error</h2>\n" + html_table(head, rows) +
+  return "<section>\n<h3 id=\"cheapest\">Cheapest way to an error</h3>\n" + html_table(head, rows) +
          "<p class=\"faint\">" + std::string(explanation) + "</p>\n</section>\n";
 }
 

@@ -36,11 +36,12 @@ kind = "history"
 title = "Slow"
 )");
 
-/// All CSV files but timing.csv, by name.
+/// All CSV files by name, but timing.csv and changes.csv, which says what lay there before.
 std::map<std::string, std::string> tables(const std::filesystem::path& root) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
-    if (entry.path().extension() == ".csv" && entry.path().filename() != "timing.csv")
+    if (entry.path().extension() == ".csv" && entry.path().filename() != "timing.csv" &&
+        entry.path().filename() != "changes.csv")
       files[std::filesystem::relative(entry.path(), root).string()] = content_of(entry.path());
   return files;
 }

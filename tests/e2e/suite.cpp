@@ -57,7 +57,7 @@ TEST_CASE("a suite writes its tables, the same bytes whatever the jobs, and a re
   REQUIRE(run_program("run " + file + " --no-cache --jobs 2 --out " + two.string()).code == 0);
 
   CHECK(first_line(content_of(one / "runs.csv")) ==
-        "run,study,scene,fluid,basis,transfer,stepping,reset,cells,particles,dt,steps,status");
+        "run,study,scene,fluid,method,basis,transfer,stepping,reset,cells,particles,dt,steps,status");
   CHECK(first_line(content_of(one / "errors.csv")) == "run,t,location,l1,l2,linf");
   CHECK(first_line(content_of(one / "checks.csv")) == "study,check,observed,lower,upper,unit,verdict,reason");
   CHECK(first_line(content_of(one / "timing.csv")) ==

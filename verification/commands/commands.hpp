@@ -19,10 +19,11 @@ struct RunOptions {
   std::vector<std::string> names;  ///< of studies, or paths of study files; empty: the suite
   std::string suite;               ///< "": full, or all that is named
   std::filesystem::path out = "results";
-  int jobs = 0;           ///< 0: as many as there are cores
-  bool no_cache = false;  ///< leave the cache of finished runs alone
-  bool fresh = false;     ///< run everything, and replace what the cache holds
-  bool resume = false;    ///< `out` must hold a suite that was begun
+  int jobs = 0;                ///< 0: as many as there are cores
+  bool no_cache = false;       ///< leave the cache of finished runs alone
+  bool fresh = false;          ///< run everything, and replace what the cache holds
+  bool resume = false;         ///< `out` must hold a suite that was begun
+  bool keep_profiles = false;  ///< of every run, drawn or not
   std::string command_line;
 };
 int run_command(const RunOptions& options);

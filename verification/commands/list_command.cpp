@@ -2,7 +2,7 @@
 
 #include "verification/commands/commands.hpp"
 #include "verification/reading/scoreboard_reader.hpp"
-#include "verification/reading/study_reader.hpp"
+#include "verification/reading/study_folder.hpp"
 
 namespace verification {
 

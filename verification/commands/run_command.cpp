@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "reports/compare/earlier_run.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/console_table.hpp"
 #include "reports/pages/report.hpp"
@@ -13,6 +14,7 @@
 #include "verification/config/config_error.hpp"
 #include "verification/flows/reference_store.hpp"
 #include "verification/reading/scoreboard_reader.hpp"
+#include "verification/reading/study_folder.hpp"
 #include "verification/reading/study_reader.hpp"
 #include "verification/runs/interruption.hpp"
 #include "verification/suite/run_suite.hpp"
@@ -31,13 +33,7 @@ std::vector<Study> chosen_studies(const RunOptions& options) {
     return chosen;
   }
   for (const std::string& name : options.names) {
-    const bool is_file = name.ends_with(".toml");
-    const std::filesystem::path file =
-        is_file ? std::filesystem::path(name) : options.studies / (name + ".toml");
-    if (!is_file && !std::filesystem::exists(file))
-      throw ConfigError("study '" + name + "' is not known in " + options.studies.string() +
-                        "; `mpm-verify list` names them, and a path ending in .toml is read as a file");
-    Study study = read_study(file);
+    Study study = name.ends_with(".toml") ? read_study(name) : read_study_named(options.studies, name);
     if (std::ranges::any_of(chosen, [&](const Study& other) { return other.name == study.name; }))
       throw ConfigError("study '" + study.name + "' is named twice");
     if (restrict_to(study, suite)) chosen.push_back(std::move(study));
@@ -96,13 +92,15 @@ int run_command(const RunOptions& options) {
     if (progress) fmt::print(stderr, "\r\033[K");
     print_study_line(data, colour);
   };
+  const reports::EarlierRun earlier(options.out);
   // Provenance first: an interrupted run still says what made its files.
   reports::ensure_directory(options.out);
   reports::write_provenance(options.out, provenance_of(options.command_line));
   SuiteOutcome outcome;
   try {
     const InterruptionGuard guard;
-    outcome = run_suite(studies, options.out, jobs, cache, listener);
+    outcome = run_suite(studies, options.out, jobs, cache, listener,
+                        options.keep_profiles ? Profiles::All : Profiles::Needed);
   } catch (const Interrupted& stop) {
     if (progress) fmt::print(stderr, "\r\033[K");
     fmt::print(stderr, "mpm-verify: interrupted; {} holds the studies that had ended{}\n",
@@ -110,6 +108,7 @@ int run_command(const RunOptions& options) {
     return 128 + stop.signal;
   }
   cache.prune();
+  earlier.write_changes();
   const reports::ReportOutcome report = reports::write_report(options.out, {kept, jobs});
 
   const auto lines = reports::without_expected_outcomes(outcome.results);

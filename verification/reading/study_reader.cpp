@@ -214,9 +214,15 @@ void require_comparable(const TomlTable& root, const Study& study) {
   }
 }
 
+/// The file name of the program that a command starts, without what ends it: "solve" for "/opt/solve.sh
+/// {scene}".
+std::string program_of(const std::string& command) {
+  return std::filesystem::path(command.substr(0, command.find(' '))).stem().string();
+}
+
 }  // namespace
 
-Study read_study(const std::filesystem::path& file) {
+Study read_study(const std::filesystem::path& file, const std::string& topic) {
   TomlTable root = TomlTable::from_file(file.string());
   Study study;
   // The key of the study in every table: the file's name, unless it needs letters that a file had better not.
@@ -225,6 +231,7 @@ Study read_study(const std::filesystem::path& file) {
     throw ConfigError(
         file.string() +
         ": a study is named after its file, or by name = \"...\": letters, digits and . _ = - only");
+  study.topic = root.text("topic", topic);
   study.title = root.text("title");
   study.claim = root.text("claim");
   try {
@@ -240,6 +247,7 @@ Study read_study(const std::filesystem::path& file) {
   if (root.has("solver")) {
     TomlTable solver = root.table("solver");
     study.solver_command = solver.text("command");
+    study.solver_name = solver.text("name", program_of(study.solver_command));
     solver.refuse_unknown_keys();
   }
   if (root.has("stability")) {
@@ -262,25 +270,6 @@ Study read_study(const std::filesystem::path& file) {
               "cannot show a study of which a lesser suite runs a part; remove it, or in_full and in_quick");
   root.refuse_unknown_keys();
   return study;
-}
-
-std::vector<Study> read_studies(const std::filesystem::path& directory) {
-  std::error_code error;
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(directory, error))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  if (files.empty())
-    throw ConfigError(directory.string() +
-                      ": no studies (*.toml) here; give their directory with --studies DIR");
-  std::ranges::sort(files);
-  std::vector<Study> studies;
-  for (const auto& file : files) studies.push_back(read_study(file));
-  // In the order of their names, wherever they lie: moving a file changes no table.
-  std::ranges::stable_sort(studies, {}, [](const Study& study) { return study.name + ".toml"; });
-  for (std::size_t s = 1; s < studies.size(); ++s)
-    if (studies[s].name == studies[s - 1].name)
-      throw ConfigError(directory.string() + ": two studies are named '" + studies[s].name + "'; rename one");
-  return studies;
 }
 
 }  // namespace verification

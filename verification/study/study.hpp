@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reports/records/records.hpp"
@@ -77,9 +78,17 @@ struct ClaimSpec {
 /// A study: what to run, refine and measure, and what must hold. Read from TOML by read_study().
 struct Study {
   std::string name, title, claim;
+  std::string
+      topic;  ///< chapter of the report: the folder that it lies in among the studies, or what it says
+  std::optional<reports::ChapterRecord> scope;  ///< what its folder says is not verified
+  /// How the report names the chapter and where it stands among the others, if its folder says so.
+  std::optional<std::pair<reports::ChapterRecord, long>> chapter;
+  std::vector<std::pair<reports::HeadlineRecord, long>>
+      headlines;  ///< the same for the report's first screen
   Suite suite = Suite::Full;
   Comparison comparison = Comparison::Exact;
   std::string solver_command;  ///< of an external solver; "" for ours
+  std::string solver_name;     ///< of an external solver, as legends have it
   Ladder ladder;
   bool matrix = false;  ///< its variants are a [matrix] of schemes
   /// Times that each run is simulated to measure what it costs, after a warm-up and with nothing else

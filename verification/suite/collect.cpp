@@ -1,6 +1,8 @@
 #include "verification/suite/collect.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <string>
 
 namespace verification {
@@ -8,6 +10,7 @@ namespace {
 
 /// What the scenes of a study were declared not to need (DESIGN: model only what a scene needs).
 std::string left_out(const Study& study) {
+  if (!study.solver_command.empty()) return "";  // what a foreign solver does without is not ours to say
   if (study.runs.empty()) return "walls (a uniform periodic lattice)";
   const auto all = [&](auto&& holds) { return std::ranges::all_of(study.runs, holds); };
   const auto any = [&](auto&& holds) { return std::ranges::any_of(study.runs, holds); };
@@ -35,9 +38,15 @@ int place_in_paper(const reports::ClaimRecord& claim) {
 reports::Results collect(const std::vector<const StudyData*>& studies) {
   reports::Results results;
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  std::map<long, reports::ChapterRecord> chapters;
+  std::map<long, reports::HeadlineRecord> headlines;
   for (const StudyData* data : studies) {
     const Study& study = *data->study;
-    results.studies.push_back({study.name, study.title, study.claim, name(study.suite), left_out(study)});
+    if (study.chapter) chapters[study.chapter->second] = study.chapter->first;
+    for (const auto& [headline, place] : study.headlines) headlines[place] = headline;
+    if (study.scope) chapters[std::numeric_limits<long>::max()] = *study.scope;
+    results.studies.push_back(
+        {study.name, study.title, study.claim, name(study.suite), left_out(study), study.topic});
     for (const RunData& run : data->runs) {
       results.runs.push_back(run.record);
       results.timings.push_back(run.timing);
@@ -53,6 +62,8 @@ reports::Results collect(const std::vector<const StudyData*>& studies) {
     append(results.timings, data->stability_timings);
     append(results.figures, study.figures);
   }
+  for (const auto& [place, chapter] : chapters) results.chapters.push_back(chapter);
+  for (const auto& [place, headline] : headlines) results.headlines.push_back(headline);
   std::ranges::stable_sort(results.claims, {}, place_in_paper);
   return results;
 }

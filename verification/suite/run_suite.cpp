@@ -46,9 +46,9 @@ reports::CheckRecord unfinished(long done, long total) {
 
 class SuiteRunner {
  public:
-  SuiteRunner(const std::vector<Study>& studies, std::filesystem::path out, RunCache& cache,
-              const SuiteListener& listener)
-      : studies_(studies), out_(std::move(out)), cache_(cache), listener_(listener) {
+  SuiteRunner(const std::vector<Study>& studies, const std::filesystem::path& out, RunCache& cache,
+              const SuiteListener& listener, Profiles profiles)
+      : studies_(studies), out_(out), cache_(cache), listener_(listener), profiles_(studies, out, profiles) {
     for (const Study& study : studies) {
       StudyData data;
       data.study = &study;
@@ -117,10 +117,7 @@ class SuiteRunner {
     const bool from_cache = kept.has_value();
     RunData data = kept ? std::move(*kept) : simulate(study, plan);
     data.errors = measure_errors(data);
-    reports::write_profile(out_, plan.run, data.profile);
-    reports::write_history(out_, plan.run, data.history);
-    if (!data.shear.empty()) reports::write_shear(out_, plan.run, data.shear);
-    if (!data.state.empty()) reports::write_state(out_, plan.run, data.state);
+    profiles_.write(data);
 
     std::unique_lock lock(mutex_);
     data_[job.study].runs[job.run] = std::move(data);
@@ -203,7 +200,10 @@ class SuiteRunner {
     evaluate_checks(data);
     data.matrix = matrix_records(data);
     data.scores = score_records(data);
+    const bool failed =
+        std::ranges::any_of(data.checks, [](const auto& check) { return check.verdict != "pass"; });
     for (RunData& run : data.runs) {
+      if (failed) profiles_.write_all(run);
       run.profile = {};  // on disk by now; a suite would hold gigabytes otherwise
       run.history = {};
       run.shear = {};
@@ -225,6 +225,7 @@ class SuiteRunner {
   std::filesystem::path out_;
   RunCache& cache_;
   const SuiteListener& listener_;
+  KeptProfiles profiles_;
   std::vector<StudyData> data_;
   std::vector<std::vector<std::vector<reports::StabilityRecord>>> limits_;  // by study and case
   std::vector<std::size_t> remaining_;
@@ -236,8 +237,8 @@ class SuiteRunner {
 }  // namespace
 
 SuiteOutcome run_suite(const std::vector<Study>& studies, const std::filesystem::path& out, int jobs,
-                       RunCache& cache, const SuiteListener& listener) {
-  return SuiteRunner(studies, out, cache, listener).run(std::max(1, jobs));
+                       RunCache& cache, const SuiteListener& listener, Profiles profiles) {
+  return SuiteRunner(studies, out, cache, listener, profiles).run(std::max(1, jobs));
 }
 
 }  // namespace verification

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "verification/runs/run_data.hpp"
+#include "verification/suite/kept_profiles.hpp"
 #include "verification/suite/run_cache.hpp"
 
 namespace verification {
@@ -24,15 +25,15 @@ struct SuiteOutcome {
   long from_cache = 0;  ///< how many of them were taken over from the cache
 };
 
-/// Runs every simulation of the studies on `jobs` threads, longest first, and writes DIR: each run's scene,
-/// profile and history as soon as it ends, the tables at the end. Runs that the cache holds are taken over;
-/// the others are added to it as they end, so that a suite that was stopped or killed goes on where it was.
-/// Results do not depend on `jobs` or on the cache, except for timing.csv, which says of each time whether it
-/// was measured in this run. Tables of an earlier suite in DIR go first: a DIR without checks.csv is one
-/// whose suite did not end. Throws reports::IoError when DIR cannot be written, and Interrupted on SIGINT and
-/// SIGTERM (while an InterruptionGuard is alive); the tables of the studies that had ended are then written
-/// if at all possible, with a failed check that says so.
+/// Runs every simulation of the studies on `jobs` threads, longest first, and writes DIR: each run's scene
+/// and the profiles that are wanted of it as soon as it ends, the tables at the end. Runs that the cache
+/// holds are taken over; the others are added to it as they end, so that a suite that was stopped or killed
+/// goes on where it was. Results do not depend on `jobs` or on the cache, except for timing.csv, which says
+/// of each time whether it was measured in this run. Tables of an earlier suite in DIR go first: a DIR
+/// without checks.csv is one whose suite did not end. Throws reports::IoError when DIR cannot be written, and
+/// Interrupted on SIGINT and SIGTERM (while an InterruptionGuard is alive); the tables of the studies that
+/// had ended are then written if at all possible, with a failed check that says so.
 SuiteOutcome run_suite(const std::vector<Study>& studies, const std::filesystem::path& out, int jobs,
-                       RunCache& cache, const SuiteListener& listener);
+                       RunCache& cache, const SuiteListener& listener, Profiles profiles = Profiles::Needed);
 
 }  // namespace verification

@@ -163,7 +163,7 @@ TEST_CASE("the columns are those that the README names", "[reports]") {
   ScratchDirectory dir;
   write_results(dir.path(), {});
   CHECK(read_file(dir / "runs.csv") ==
-        "run,study,scene,fluid,basis,transfer,stepping,reset,cells,particles,dt,steps,status\n");
+        "run,study,scene,fluid,method,basis,transfer,stepping,reset,cells,particles,dt,steps,status\n");
   CHECK(read_file(dir / "errors.csv") == "run,t,location,l1,l2,linf\n");
   CHECK(read_file(dir / "checks.csv") == "study,check,observed,lower,upper,unit,verdict,reason\n");
   CHECK(read_file(dir / "timing.csv") == "run,wall_s,particle_steps_per_s,repetitions,spread,source\n");
@@ -211,8 +211,8 @@ TEST_CASE("a bad file is named with line and column", "[reports]") {
                     contains("checks.csv:2: a quoted text is not closed"));
   CHECK_THROWS_WITH(reading(header + std::string("s\0", 2)), contains("checks.csv:2: a zero byte"));
   write_file(dir / "runs.csv",
-             "run,study,scene,fluid,basis,transfer,stepping,reset,cells,particles,dt,steps,status\n"
-             "r,s,s,f,b,t,u,never,2.5,1,1,1,completed\n");
+             "run,study,scene,fluid,method,basis,transfer,stepping,reset,cells,particles,dt,steps,status\n"
+             "r,s,s,f,m,b,t,u,never,2.5,1,1,1,completed\n");
   CHECK_THROWS_WITH(read_results(dir.path()),
                     contains("runs.csv:2: column 'cells': '2.5' is not a whole number"));
   std::filesystem::remove(dir / "runs.csv");

@@ -46,6 +46,8 @@ std::size_t count(const std::string& text, const std::string& part) {
 // Whether tags nest and close as XML demands; enough of a parser for what we write.
 bool tags_nest(std::string text, bool html) {
   text = std::regex_replace(text, std::regex("<!DOCTYPE[^>]*>|<\\?[^>]*\\?>"), "");
+  if (const std::size_t script = text.find("<script>"); script != text.npos)
+    text.erase(script + 8, text.find("</script>") - script - 8);
   std::vector<std::string> open;
   for (std::size_t at = text.find('<'); at != text.npos; at = text.find('<', at + 1)) {
     const std::size_t end = text.find('>', at);
@@ -55,7 +57,7 @@ bool tags_nest(std::string text, bool html) {
     if (tag[0] == '/') {
       if (open.empty() || open.back() != tag.substr(1)) return false;
       open.pop_back();
-    } else if (tag.back() != '/' && !(html && (name == "meta" || name == "img"))) {
+    } else if (tag.back() != '/' && !(html && (name == "meta" || name == "link" || name == "input"))) {
       open.push_back(name);
     }
   }
@@ -114,7 +116,7 @@ TEST_CASE("the same tables give the same bytes", "[reports]") {
   if (gnuplot_is_here()) {
     CHECK(first.count("figures/poiseuille-profiles.svg") == 1);
     CHECK(first.at("figures/work-precision.png").substr(1, 3) == "PNG");
-    CHECK(count(first.at("report.html"), "src=\"data:image/svg+xml;base64,") == 5);
+    CHECK(count(first.at("report.html"), "<svg id=\"fig-") == 5);
   }
 }
 
@@ -160,8 +162,10 @@ TEST_CASE("failures come first and texts are literal", "[reports]") {
     write_report(dir.path());
     const std::string text = read_file(dir / "report.html");
     CHECK(tags_nest(text, true));
-    CHECK(text.find("FAIL: 3 of 5") < text.find("<h2 id=\"failures\""));
-    CHECK(text.find("<h2 id=\"failures\"") < text.find("aria-label=\"Contents\""));
+    const std::string screen = text.substr(text.find("<main"));
+    CHECK(screen.find("FAIL: 3 of 5") < screen.find("id=\"failures\""));
+    CHECK(screen.find("id=\"failures\"") < screen.find("class=\"headlines\""));
+    CHECK(screen.find("class=\"headlines\"") < screen.find("class=\"chapter\""));
     CHECK(text.find("<usf>") == text.npos);
     CHECK_THAT(text, contains("&lt;usf&gt;"));
     CHECK(count(text, "http") == 0);  // no external resource
@@ -271,11 +275,6 @@ TEST_CASE("wrapping, thinning, encoding", "[reports]") {
   for (int i = 0; i < 100; ++i) curve.emplace_back(i, i);
   CHECK(thinned(curve, 10).size() == 10);
   CHECK(thinned(curve, 10).back().first == 99);
-  // RFC 4648, section 10.
-  CHECK(base64("") == "");
-  CHECK(base64("f") == "Zg==");
-  CHECK(base64("fo") == "Zm8=");
-  CHECK(base64("foobar") == "Zm9vYmFy");
   CHECK(xml_text("a<b>&\"'\x01\xff é") == "a&lt;b&gt;&amp;&quot;&#39;?? é");
   CHECK(html_anchor("a b/c") == "study-a-b-c");
 }
