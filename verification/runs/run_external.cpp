@@ -88,7 +88,8 @@ RunData run_external(const Study& study, const PlannedRun& plan, const std::file
     data.profile.insert(data.profile.end(), rows.begin(), rows.end());
   }
   data.record = describe_run(study, plan, scene.steps(), "completed");
-  data.record.basis = data.record.transfer = data.record.stepping = data.record.reset = reports::foreign_scheme;
+  data.record.basis = data.record.transfer = data.record.stepping = data.record.reset =
+      reports::foreign_scheme;
   data.record.method = study.solver_name;
   data.timing.run = plan.run;
   data.timing.wall_s = wall;
