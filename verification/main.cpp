@@ -6,6 +6,7 @@
 
 #include "build_info.hpp"
 #include "reports/files/io_error.hpp"
+#include "reports/process/child.hpp"
 #include "solver/kernel/isa.hpp"
 #include "solver/scene/scene.hpp"
 #include "verification/commands/commands.hpp"
@@ -128,6 +129,7 @@ int dispatch(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  reports::end_children_on_signals();
   try {
     return dispatch(argc, argv);
   } catch (const verification::ConfigError& error) {

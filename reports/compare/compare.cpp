@@ -97,6 +97,10 @@ std::size_t FileComparison::count(Verdict verdict) const {
              : static_cast<std::size_t>(std::ranges::count(changes, verdict, &Change::verdict));
 }
 
+bool FileComparison::regressed() const {
+  return count(Verdict::Worse) > 0 || count(Verdict::Missing) > 0;
+}
+
 FileComparison compare_measured(const std::string& file, const std::vector<Measured>& before,
                                 const std::vector<Measured>& after) {
   FileComparison comparison{file, {}, 0};
@@ -135,6 +139,9 @@ std::vector<FileComparison> compare_results(const fs::path& before, const fs::pa
   if (fs::is_directory(before) != fs::is_directory(after))
     throw IoError(fmt::format("{} and {}: compare two result directories or two files", before.string(),
                               after.string()));
+  if (!fs::is_directory(before) && kind_of(before) != kind_of(after))
+    throw IoError(fmt::format("{} is a {} and {} a {}: compare two files of the same kind", before.string(),
+                              kind_of(before), after.string(), kind_of(after)));
   if (!fs::is_directory(before))
     return {compare_measured(after.filename().string(), read_measured(before, options),
                              read_measured(after, options))};

@@ -22,6 +22,7 @@ struct Measured {
   bool statement = false;  ///< holds (1) or does not (0)
 };
 
+/// Missing: what was measured before and is gone. It counts as a regression, as worse does.
 enum class Verdict { Same, Better, Worse, Changed, New, Missing };
 std::string to_string(Verdict verdict);
 
@@ -40,6 +41,8 @@ struct FileComparison {
   std::size_t same = 0;
 
   [[nodiscard]] std::size_t count(Verdict verdict) const;
+  /// Whether anything is worse, or gone.
+  [[nodiscard]] bool regressed() const;
 };
 
 struct CompareOptions {
@@ -54,6 +57,9 @@ constexpr double spreads_of_noise = 3, least_time_change = 0.05;
 /// Errors relative to the flow's velocity below this are round-off of many steps.
 constexpr double error_floor = 1e-12;
 
+/// Which result file one is, by its columns: "errors.csv", ... @throws IoError for any other file.
+std::string kind_of(const std::filesystem::path& file);
+
 /// The numbers of one result file of a known kind: runs.csv (status), errors.csv, orders.csv, checks.csv
 /// (verdict), timing.csv, or bench.csv (columns benchmark, quantity, value, unit, spread: relative, from the
 /// repetitions). The kind is known by the columns. @throws IoError for any other file.
@@ -64,7 +70,8 @@ FileComparison compare_measured(const std::string& file, const std::vector<Measu
                                 const std::vector<Measured>& after);
 
 /// Two result directories, file by file (a file that neither has is left out; one that only one of them has
-/// counts as new or missing as a whole), or two files of the same kind. @throws IoError
+/// counts as new or missing as a whole), or two files of the same kind. @throws IoError, also for two
+/// kinds
 std::vector<FileComparison> compare_results(const std::filesystem::path& before,
                                             const std::filesystem::path& after,
                                             const CompareOptions& options);

@@ -118,21 +118,32 @@ std::vector<Measured> benchmarks(const fs::path& file) {
 
 }  // namespace
 
-std::vector<Measured> read_measured(const fs::path& file, const CompareOptions& options) {
+std::string kind_of(const fs::path& file) {
   const std::vector<std::string> header = header_of(file);
   const auto has = [&](auto... names) {
     return ((std::find(header.begin(), header.end(), std::string(names)) != header.end()) && ...);
   };
-  if (has_columns(header, bench_columns)) return benchmarks(file);
-  if (has("run", "t", "location", "l1", "l2", "linf")) return errors(file, options);
-  if (has("study", "theoretical", "observed", "classification")) return orders(file, options);
-  if (has("study", "check", "observed", "lower", "upper", "verdict")) return verdicts(file);
-  if (has("run", "wall_s")) return timings(file, has("spread"));
-  if (has("run", "status")) return statuses(file);
+  if (has_columns(header, bench_columns)) return "bench.csv";
+  if (has("run", "t", "location", "l1", "l2", "linf")) return "errors.csv";
+  if (has("study", "theoretical", "observed", "classification")) return "orders.csv";
+  if (has("study", "check", "observed", "lower", "upper", "verdict")) return "checks.csv";
+  if (has("run", "wall_s")) return "timing.csv";
+  if (has("run", "status")) return "runs.csv";
   throw IoError(fmt::format(
       "{}: not a file that can be compared; it must be (by its columns) a runs.csv, errors.csv, orders.csv, "
       "checks.csv, timing.csv, or a bench.csv with benchmark,quantity,value,unit,spread",
       file.string()));
+}
+
+std::vector<Measured> read_measured(const fs::path& file, const CompareOptions& options) {
+  const std::string kind = kind_of(file);
+  if (kind == "bench.csv") return benchmarks(file);
+  if (kind == "errors.csv") return errors(file, options);
+  if (kind == "orders.csv") return orders(file, options);
+  if (kind == "checks.csv") return verdicts(file);
+  if (kind == "runs.csv") return statuses(file);
+  const std::vector<std::string> header = header_of(file);
+  return timings(file, std::find(header.begin(), header.end(), "spread") != header.end());
 }
 
 }  // namespace reports

@@ -45,7 +45,7 @@ std::string line_of(const Change& change, bool colour) {
 std::string comparison_text(const std::vector<FileComparison>& comparison, bool all, bool colour) {
   const std::size_t most = all ? std::numeric_limits<std::size_t>::max() : 20;
   std::string text;
-  std::size_t worse = 0;
+  std::size_t worse = 0, gone = 0;
   for (const FileComparison& file : comparison) {
     std::size_t shown_lines = 0, unjudged = 0, left_out = 0;
     for (const Change& change : file.changes) {
@@ -67,8 +67,11 @@ std::string comparison_text(const std::vector<FileComparison>& comparison, bool 
       text += fmt::format(" ({} measured once: their noise is not known, so they are not judged)", unjudged);
     text += "\n\n";
     worse += file.count(Verdict::Worse);
+    gone += file.count(Verdict::Missing);
   }
-  return text + (worse == 0 ? "no regression beyond noise\n" : fmt::format("{} regressions\n", worse));
+  if (worse + gone == 0) return text + "no regression beyond noise\n";
+  return text + fmt::format("{} regressions{}\n", worse + gone,
+                            gone > 0 ? fmt::format(", {} of them numbers that have gone", gone) : "");
 }
 
 }  // namespace reports

@@ -1,13 +1,9 @@
 #include "reports/figures/gnuplot.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -18,6 +14,7 @@
 #include "reports/figures/for_each_index.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
+#include "reports/process/child.hpp"
 
 namespace reports {
 namespace {
@@ -44,49 +41,29 @@ std::string find_program(const std::string& name) {
   return "";
 }
 
+constexpr double longest_drawing = 60;  // [s] a figure; a second is usual
+
 struct Outcome {
-  int status = -1;        ///< exit status, 128 + signal, or -1 if it could not be started
-  std::string complaint;  ///< its standard error, or why it could not be started
+  bool well = false;
+  std::string complaint;  ///< what it printed, or how it ended
 };
 
-// Start a program in `directory` without a shell and wait for it. Spawned, not forked: copying the pages of a
-// program that holds a suite's results takes as long as a figure.
+/// Runs a program in `directory` and waits for it.
 Outcome run_program(const std::string& program, const fs::path& directory,
-                    const std::vector<std::string>& arguments) {
-  std::vector<char*> argv{const_cast<char*>(program.c_str())};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return {-1, std::strerror(errno)};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
-  pid_t child = 0;
-  const int error = posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) {
-    close(ends[0]);
-    close(ends[1]);
-    return {-1, std::strerror(error)};
-  }
-  close(ends[1]);
-  Outcome outcome;
-  char block[4096];
-  while (true) {
-    const ssize_t got = read(ends[0], block, sizeof block);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) break;
-    outcome.complaint.append(block, static_cast<std::size_t>(got));
-  }
-  close(ends[0]);
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) return {-1, std::strerror(errno)};
-  }
-  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+                    const std::vector<std::string>& arguments, const std::string& name, std::size_t figures) {
+  const fs::path log = directory / (name + ".log");
+  ChildCommand command;
+  command.arguments = {program};
+  command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
+  command.directory = directory;
+  command.log = log;
+  command.timeout = longest_drawing * static_cast<double>(figures);
+  const ChildEnd end = run_child(command);
+  Outcome outcome{end.well(), last_lines(log, 20)};
+  if (!outcome.well && (outcome.complaint.empty() || end.exit_code < 0))
+    outcome.complaint = end.text() + (outcome.complaint.empty() ? "" : "; " + outcome.complaint);
+  std::error_code ignored;
+  fs::remove(log, ignored);
   return outcome;
 }
 
@@ -152,12 +129,11 @@ std::vector<std::string> drawing_arguments(const Drawing& drawing) {
 }
 
 std::string draw_alone(const std::string& program, const fs::path& directory, const Drawing& drawing) {
-  const Outcome outcome = run_program(program, directory, drawing_arguments(drawing));
+  const Outcome outcome = run_program(program, directory, drawing_arguments(drawing), drawing.name, 1);
   const Images images(directory, drawing.name);
-  if (images.take_parts() && outcome.status == 0) return "";
+  if (images.take_parts() && outcome.well) return "";
   images.remove();
-  return fmt::format("{} failed on {} (status {}): {}", program,
-                     (directory / (drawing.name + ".gp")).string(), outcome.status,
+  return fmt::format("{} failed on {}: {}", program, (directory / (drawing.name + ".gp")).string(),
                      outcome.complaint.empty() ? "it wrote no image" : one_line(outcome.complaint));
 }
 
@@ -213,7 +189,9 @@ std::vector<std::string> Gnuplot::draw(const fs::path& directory, const std::vec
       for (const std::string& argument : drawing_arguments(drawings[missing[k]]))
         arguments.push_back(argument);
     // It stops at the first script that it cannot follow, and does not say which.
-    const bool all_drawn = run_program(program_, directory, arguments).status == 0;
+    const std::size_t share = (missing.size() - first + batches - 1) / batches;
+    const bool all_drawn =
+        run_program(program_, directory, arguments, "batch" + std::to_string(first), share).well;
     for (std::size_t k = first; k < missing.size(); k += batches) {
       const Drawing& drawing = drawings[missing[k]];
       const Images images(directory, drawing.name);

@@ -21,11 +21,18 @@ void require_band(TomlTable& table) {
     if (!table.has(key)) table.fail_missing(key, "give a two-sided band");
 }
 
-void read_locations(TomlTable& table, CheckSpec& spec) {
-  const std::vector<std::string> words =
-      table.has("locations") ? table.texts("locations") : std::vector<std::string>{"grid", "particles"};
+void read_locations(TomlTable& table, const Study& study, CheckSpec& spec) {
+  std::vector<std::string> delivered{"grid", "particles"};
+  if (study.solver) {
+    delivered.clear();
+    for (const Location location : study.solver->locations) delivered.push_back(name(location));
+  }
+  const std::vector<std::string> words = table.has("locations") ? table.texts("locations") : delivered;
+  if (words.empty()) table.fail("locations", "is empty: a check of nothing proves nothing");
   for (const std::string& word : words) {
     if (word != "grid" && word != "particles") table.fail("locations", "may hold \"grid\" and \"particles\"");
+    if (std::ranges::count(delivered, word) == 0)
+      table.fail("locations", "\"" + word + "\" is not what the study's solver delivers (solver.locations)");
     spec.locations.push_back(word == "grid" ? Location::Grid : Location::Particles);
   }
 }
@@ -47,12 +54,11 @@ void read_times(TomlTable& table, const Study& study, CheckSpec& spec) {
   }
 }
 
-namespace {
-
-/// Whether a run is at the level that run names end with, e.g. "n20".
 bool is_level(const PlannedRun& run, const std::string& tag) {
   return run.run.ends_with("." + tag);
 }
+
+namespace {
 
 bool is_extreme(const std::string& level) {
   return level == "finest" || level == "coarsest";

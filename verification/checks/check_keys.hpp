@@ -10,7 +10,7 @@ namespace verification {
 void require_upper(TomlTable& table, CheckSpec& spec, double lower);
 /// Both bounds must be given.
 void require_band(TomlTable& table);
-void read_locations(TomlTable& table, CheckSpec& spec);
+void read_locations(TomlTable& table, const Study& study, CheckSpec& spec);
 void read_norm(TomlTable& table, CheckSpec& spec);
 /// `times`, each an output time of every run spoken of; all of them if absent.
 void read_times(TomlTable& table, const Study& study, CheckSpec& spec);
@@ -29,5 +29,8 @@ std::string label(const CheckSpec& spec, const RunData& run);
 
 /// Adds the kinds that compare scalars: scalar, ordering, ratio, crossing (checks/quantity_checks.cpp).
 void add_quantity_kinds(std::vector<struct CheckKind>& kinds);
+
+/// Whether a run is at the level that run names end with, e.g. "n20".
+bool is_level(const PlannedRun& run, const std::string& tag);
 
 }  // namespace verification

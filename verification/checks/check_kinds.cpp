@@ -23,7 +23,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void read_error(TomlTable& table, const Study& study, CheckSpec& spec) {
   require_upper(table, spec, 0);
-  read_locations(table, spec);
+  read_locations(table, study, spec);
   read_norm(table, spec);
   read_times(table, study, spec);
   read_level(table, study, spec);
@@ -46,9 +46,33 @@ void evaluate_error(const CheckSpec& spec, const StudyData& data, Records& recor
 void read_order(TomlTable& table, const Study& study, CheckSpec& spec) {
   if (study.ladder.axis == Axis::None) table.fail("kind", "\"order\" needs a [ladder]");
   require_band(table);
-  read_locations(table, spec);
+  const std::string judge = table.text("judge", "point");
+  if (judge != "point" && judge != "interval") table.fail("judge", "must be \"point\" or \"interval\"");
+  spec.whole_interval = judge == "interval";
+  read_locations(table, study, spec);
   read_norm(table, spec);
   read_times(table, study, spec);
+}
+
+/// The end of an order's interval that lies farther out of the band, or nearer to leaving it.
+double worse_end(const CheckSpec& spec, const reports::OrderRecord& order) {
+  return spec.lower - order.ci_lower > order.ci_upper - spec.upper ? order.ci_lower : order.ci_upper;
+}
+
+/// A check of an order with what its interval has to say.
+CheckSpec with_interval(CheckSpec spec, const reports::OrderRecord& order) {
+  const double width = order.ci_upper - order.ci_lower;
+  if (spec.whole_interval)
+    spec.reason += fmt::format(" (the whole 95 % interval [{:.3g}, {:.3g}] must lie in the band)",
+                               order.ci_lower, order.ci_upper);
+  else if (!(width <= spec.upper - spec.lower))
+    spec.reason += std::isfinite(width)
+                       ? fmt::format(
+                             " (its point value decides; the 95 % interval [{:.3g}, {:.3g}] is wider than "
+                             "the band)",
+                             order.ci_lower, order.ci_upper)
+                       : " (its point value decides; so few levels have no interval)";
+  return spec;
 }
 
 void evaluate_order(const CheckSpec& spec, const StudyData& data, Records& records) {
@@ -57,8 +81,9 @@ void evaluate_order(const CheckSpec& spec, const StudyData& data, Records& recor
       if (order.location == name(location) && order.norm == spec.norm &&
           std::ranges::count(spec.variants, order.variant) > 0 &&
           std::ranges::count(spec.times, order.t) > 0) {
-        const double observed = order.classification == "monotone" ? order.observed : nan;
-        records.push_back(judge(spec, data,
+        const double value = spec.whole_interval ? worse_end(spec, order) : order.observed;
+        const double observed = order.classification == "monotone" ? value : nan;
+        records.push_back(judge(with_interval(spec, order), data,
                                 fmt::format("{}{} order, {} {}, t = {} s", label(order.variant), order.axis,
                                             order.location, order.norm, order.t),
                                 observed, "1"));
@@ -71,7 +96,7 @@ void read_formal_order(TomlTable& table, const Study& study, CheckSpec& spec) {
   if (!study.matrix || study.ladder.axis == Axis::None)
     table.fail("kind", "\"formal-order\" needs a [matrix] and a [ladder]");
   spec.tolerance = table.positive("tolerance");
-  read_locations(table, spec);
+  read_locations(table, study, spec);
   spec.times = {study.runs.front().scene.outputs.back()};
 }
 
@@ -104,7 +129,7 @@ void read_growth(TomlTable& table, const Study& study, CheckSpec& spec) {
   if (study.ladder.axis != Axis::Time) table.fail("kind", "\"growth\" needs a [ladder] in time");
   require_band(table);
   if (spec.upper >= 0) table.fail("upper", "must be negative: the error grows as dt shrinks");
-  read_locations(table, spec);
+  read_locations(table, study, spec);
   read_norm(table, spec);
   read_times(table, study, spec);
 }
@@ -143,7 +168,7 @@ void evaluate_bias(const CheckSpec& spec, const StudyData& data, Records& record
 
 void read_difference(TomlTable& table, const Study& study, CheckSpec& spec) {
   require_upper(table, spec, 0);
-  read_locations(table, spec);
+  read_locations(table, study, spec);
   read_times(table, study, spec);
   read_level(table, study, spec);
   read_against(table, study, spec);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "verification/checks/expected_checks.hpp"
+#include "verification/checks/quantities.hpp"
 #include "verification/checks/stability_checks.hpp"
 
 namespace verification {
@@ -28,6 +30,14 @@ reports::CheckRecord completion(const StudyData& data) {
 }
 
 }  // namespace
+
+std::vector<Record> records_of(const CheckSpec& spec) {
+  if (!spec.quantity.empty() && is_quantity(spec.quantity)) return {record_of(spec.quantity)};
+  if (spec.kind == "conservation" || spec.kind == "crossing") return {Record::History};
+  if (spec.kind == "chatter") return {Record::Shear};
+  if (spec.kind == "divergence" || is_stability_kind(spec.kind)) return {};
+  return {Record::Profile};
+}
 
 CheckSpec read_check(TomlTable& table, const Study& study) {
   CheckSpec spec;
@@ -75,20 +85,31 @@ reports::ClaimRecord judged(const ClaimSpec& claim, const StudyData& data, const
   return record;
 }
 
+/// A check that was to be made and was not is one that failed.
+void require_number(StudyData& data, std::size_t made, std::optional<std::size_t> expected,
+                    const std::string& what) {
+  if (!expected || made == *expected) return;
+  CheckSpec spec;
+  spec.lower = spec.upper = static_cast<double>(*expected);
+  spec.reason = "known before the study ran; what is missing proves nothing";
+  data.checks.push_back(judge(spec, data, what, static_cast<double>(made), "checks"));
+}
+
 }  // namespace
 
 void evaluate_checks(StudyData& data) {
   Evidence evidence;
 
-  bool fate_declared = false;
   for (const CheckSpec& spec : data.study->checks) {
     const std::size_t before = data.checks.size();
     kind_named(spec.kind, TomlTable::from_text("", data.study->name)).evaluate(spec, data, data.checks);
+    require_number(data, data.checks.size() - before, expected_checks(spec, *data.study),
+                   "\"" + spec.kind + "\" checks made");
     for (std::size_t i = before; i < data.checks.size(); ++i)
       evidence.emplace_back(spec.claim, data.checks[i]);
-    fate_declared |= spec.kind == "divergence" || spec.kind == "outcome";
   }
-  if (!fate_declared && !data.runs.empty()) data.checks.push_back(completion(data));
+  if (!declares_fate(*data.study) && !data.runs.empty()) data.checks.push_back(completion(data));
+  require_number(data, data.checks.size(), data.study->declared_checks, "checks made in all");
   for (const ClaimSpec& claim : data.study->claims) data.claims.push_back(judged(claim, data, evidence));
 }
 

@@ -12,6 +12,9 @@ struct CheckKind {
   void (*evaluate)(const CheckSpec& spec, const StudyData& data, std::vector<reports::CheckRecord>& records);
 };
 
+/// What a check reads of every run that it speaks of.
+std::vector<Record> records_of(const CheckSpec& spec);
+
 /// All kinds (checks/check_kinds.cpp).
 const std::vector<CheckKind>& check_kinds();
 

@@ -40,7 +40,7 @@ double settling_time(const RunData& run) {
 }
 
 double energy_error(const RunData& run) {
-  if (!run.completed()) return nan;
+  if (!run.completed() || run.history.empty()) return nan;
   double largest = 0;
   for (const reports::HistoryRow& row : run.history) {
     const double error = std::abs(row.kinetic_energy / row.kinetic_energy_exact - 1);
@@ -292,6 +292,20 @@ bool needs_place(const std::string& quantity) {
 }
 std::string unit_of(const std::string& quantity) {
   return entry(quantity).unit;
+}
+
+bool is_quantity(const std::string& name) {
+  return std::ranges::count(quantity_names(), name) > 0;
+}
+
+Record record_of(const std::string& quantity) {
+  const auto one_of = [&](std::initializer_list<const char*> names) {
+    return std::ranges::count(names, quantity) > 0;
+  };
+  if (quantity.starts_with("shear-rate") || quantity == "viscosity-ratio") return Record::Shear;
+  if (one_of({"pressure-error", "density-error"})) return Record::State;
+  if (one_of({"grid-error", "particle-error", "path-error", "final-velocity"})) return Record::Profile;
+  return Record::History;
 }
 
 double evaluate(const Quantity& quantity, const RunData& run) {

@@ -41,6 +41,9 @@ const std::vector<std::string>& quantity_names();
 bool needs_time(const std::string& quantity);
 bool needs_place(const std::string& quantity);
 std::string unit_of(const std::string& quantity);
+bool is_quantity(const std::string& name);
+/// What of a run it is taken from.
+Record record_of(const std::string& quantity);
 
 /// The quantity of a run; NaN when the run did not get there, or has no such thing.
 double evaluate(const Quantity& quantity, const RunData& run);

@@ -11,9 +11,7 @@ namespace verification {
 int compare_command(const CompareOptions& options) {
   const auto comparison = reports::compare_results(options.before, options.after, {options.tolerance});
   fmt::print("{}", reports::comparison_text(comparison, options.all, use_colour()));
-  const bool worse = std::ranges::any_of(
-      comparison, [](const auto& file) { return file.count(reports::Verdict::Worse) > 0; });
-  return worse ? 1 : 0;
+  return std::ranges::any_of(comparison, &reports::FileComparison::regressed) ? 1 : 0;
 }
 
 }  // namespace verification

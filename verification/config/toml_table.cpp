@@ -150,6 +150,17 @@ bool TomlTable::has(const std::string& key) {
   return data_->table.contains(key);
 }
 
+bool TomlTable::is_text(const std::string& key) {
+  return has(key) && data_->table.get(key)->is_string();
+}
+
+std::vector<std::string> TomlTable::keys() {
+  std::vector<std::string> found;
+  for (const auto& entry : data_->table) found.emplace_back(entry.first.str());
+  for (const std::string& key : found) accept(key);
+  return found;
+}
+
 void TomlTable::accept(const std::string& key) {
   data_->read.insert(key);
 }

@@ -18,6 +18,10 @@ class TomlTable {
 
   /// Whether the key is there; from now on it counts as known.
   bool has(const std::string& key);
+  /// Whether a key is there and holds a text.
+  bool is_text(const std::string& key);
+  /// All keys of this table, marked as read.
+  std::vector<std::string> keys();
 
   // Required values. A number must be finite; an integer must have no fraction.
   double number(const std::string& key);

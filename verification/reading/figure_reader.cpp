@@ -36,6 +36,12 @@ void read_map(TomlTable& table, const Study& study, reports::FigureRecord& figur
 
 }  // namespace
 
+Record record_of_figure(const std::string& kind) {
+  if (kind == "history" || kind == "energy") return Record::History;
+  if (kind == "shear-rate" || kind == "viscosity") return Record::Shear;
+  return kind == "pressure" ? Record::State : Record::Profile;
+}
+
 reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
   reports::FigureRecord figure;
   figure.study = study.name;

@@ -122,6 +122,7 @@ bool restrict_to(Study& study, Suite suite) {
   if (suite == Suite::Full)
     kept.insert(kept.end(), study.scoreboard->in_full.begin(), study.scoreboard->in_full.end());
   const auto dropped = [&](const std::string& variant) { return std::ranges::count(kept, variant) == 0; };
+  study.declared_checks.reset();  // they are those of the whole study
   std::erase_if(study.variants, dropped);
   std::erase_if(study.runs, [&](const PlannedRun& run) { return dropped(run.variant); });
   for (CheckSpec& check : study.checks) std::erase_if(check.variants, dropped);

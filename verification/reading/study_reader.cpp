@@ -7,9 +7,11 @@
 
 #include "reports/records/result_files.hpp"
 #include "verification/checks/check_reader.hpp"
+#include "verification/checks/expected_checks.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/reading/figure_reader.hpp"
 #include "verification/reading/scoreboard_reader.hpp"
+#include "verification/reading/solver_reader.hpp"
 #include "verification/runs/scheme_matrix.hpp"
 #include "verification/scene/matrix.hpp"
 
@@ -185,6 +187,19 @@ void require_evidence(const TomlTable& root, const Study& study) {
       root.fail("check", "is evidence for '" + check.claim + "', which is not there");
 }
 
+/// expected_checks = N: a study that comes to make fewer checks is refused, whatever made them go.
+void read_declared_checks(TomlTable& root, Study& study) {
+  if (!root.has("expected_checks")) return;
+  const int declared = root.integer("expected_checks");
+  if (declared < 1) root.fail("expected_checks", "must be at least 1");
+  study.declared_checks = static_cast<std::size_t>(declared);
+  const auto computed = expected_checks(study);
+  if (computed && *computed != *study.declared_checks)
+    root.fail("expected_checks",
+              fmt::format("says {}, and the checks below come to {}: correct whichever is wrong", declared,
+                          *computed));
+}
+
 void require_comparable(const TomlTable& root, const Study& study) {
   if (study.comparison == Comparison::SteadyNodes)
     for (const PlannedRun& planned : study.runs)
@@ -214,12 +229,6 @@ void require_comparable(const TomlTable& root, const Study& study) {
   }
 }
 
-/// The file name of the program that a command starts, without what ends it: "solve" for "/opt/solve.sh
-/// {scene}".
-std::string program_of(const std::string& command) {
-  return std::filesystem::path(command.substr(0, command.find(' '))).stem().string();
-}
-
 }  // namespace
 
 Study read_study(const std::filesystem::path& file, const std::string& topic) {
@@ -245,10 +254,10 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
   study.repetitions = root.integer("repetitions", 0);
   if (study.repetitions < 0 || study.repetitions > 1000) root.fail("repetitions", "must lie in [0, 1000]");
   if (root.has("solver")) {
-    TomlTable solver = root.table("solver");
-    study.solver_command = solver.text("command");
-    study.solver_name = solver.text("name", program_of(study.solver_command));
-    solver.refuse_unknown_keys();
+    if (study.repetitions > 0)
+      root.fail("repetitions",
+                "has no meaning beside [solver]: a foreign solver is run once; remove one of them");
+    study.solver = read_solver(root.table("solver"), file);
   }
   if (root.has("stability")) {
     read_limits(study, root);
@@ -261,6 +270,7 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
   for (TomlTable& table : root.tables("check")) study.checks.push_back(read_check(table, study));
   if (study.checks.empty())
     root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");
+  read_declared_checks(root, study);
   for (TomlTable& table : root.tables("statement")) study.claims.push_back(read_claim(table));
   require_evidence(root, study);
   for (TomlTable& table : root.tables("figure")) study.figures.push_back(read_figure(table, study));
@@ -268,6 +278,7 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
       !(study.scoreboard->in_full.empty() && study.scoreboard->in_quick.empty()))
     root.fail("figure",
               "cannot show a study of which a lesser suite runs a part; remove it, or in_full and in_quick");
+  require_delivered(root, study);
   root.refuse_unknown_keys();
   return study;
 }

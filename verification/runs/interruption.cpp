@@ -38,8 +38,8 @@ void throw_if_interrupted() {
   if (const int signal = received.load(std::memory_order_relaxed)) throw Interrupted(signal);
 }
 
-void note_interruption(int signal) {
-  note_signal(signal);
+bool interruption_noted() {
+  return received.load(std::memory_order_relaxed) != 0;
 }
 
 }  // namespace verification

@@ -24,7 +24,7 @@ class InterruptionGuard {
 /// Throws Interrupted once a signal has come. Cheap enough for every time step.
 void throw_if_interrupted();
 
-/// Notes a signal that somebody else received for us: a child of ours that died of it.
-void note_interruption(int signal);
+/// Whether one has come: for what must end its children first.
+bool interruption_noted();
 
 }  // namespace verification

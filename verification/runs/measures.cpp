@@ -8,6 +8,7 @@
 #include "verification/convergence/eca_hoekstra.hpp"
 #include "verification/convergence/gci.hpp"
 #include "verification/convergence/norms.hpp"
+#include "verification/runs/foreign/pairing.hpp"
 
 namespace verification {
 namespace {
@@ -23,10 +24,13 @@ double pick(const Norms& norms, const std::string& norm) {
   return norm == "l1" ? norms.l1 : norm == "l2" ? norms.l2 : norms.linf;
 }
 
-/// Norms of the difference of two runs on the same mesh, particle by particle and corner by corner.
+/// Norms of the difference of two runs on the same mesh, particle by particle and corner by corner. Our own
+/// rows keep their order; those of others are paired by place.
 Norms difference_norms(const RunData& a, const RunData& b, double t, Location location) {
-  const auto rows_a = rows_at(a, t, location), rows_b = rows_at(b, t, location);
+  const auto rows_a = rows_at(a, t, location);
+  auto rows_b = rows_at(b, t, location);
   std::vector<Eigen::Vector2d> differences;
+  if (a.foreign) rows_b = paired_by_place(rows_a, rows_b, pairing_distance(a.plan->scene, location));
   if (rows_a.size() == rows_b.size())
     for (std::size_t i = 0; i < rows_a.size(); ++i)
       differences.emplace_back(rows_a[i]->u - rows_b[i]->u, rows_a[i]->v - rows_b[i]->v);

@@ -14,6 +14,7 @@ namespace verification {
 /// What one run left behind.
 struct RunData {
   const PlannedRun* plan = nullptr;
+  bool foreign = false;  ///< somebody else's solver made it
   reports::RunRecord record;
   reports::TimingRecord timing;
   std::vector<reports::ProfileRow> profile;

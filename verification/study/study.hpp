@@ -9,6 +9,7 @@
 #include "reports/records/records.hpp"
 #include "verification/scene/scene_config.hpp"
 #include "verification/stability/stability_plan.hpp"
+#include "verification/study/foreign_solver.hpp"
 #include "verification/study/scoreboard.hpp"
 
 namespace verification {
@@ -56,7 +57,9 @@ struct CheckSpec {
   std::string kind;
   std::vector<std::string> variants;  ///< that it speaks of
   std::vector<Location> locations;
-  std::string norm;            ///< "l1", "l2", "linf"
+  std::string norm;  ///< "l1", "l2", "linf"
+  /// Of an order: its whole 95 % interval must lie in the band, not its point value alone.
+  bool whole_interval = false;
   std::vector<double> times;   ///< [s]
   std::string level;           ///< "finest", "coarsest", "all", or the end of a run's name, e.g. "n20"
   std::string against;         ///< variant to compare with
@@ -87,8 +90,7 @@ struct Study {
       headlines;  ///< the same for the report's first screen
   Suite suite = Suite::Full;
   Comparison comparison = Comparison::Exact;
-  std::string solver_command;  ///< of an external solver; "" for ours
-  std::string solver_name;     ///< of an external solver, as legends have it
+  std::optional<ForeignSolver> solver;  ///< somebody else's; none: ours
   Ladder ladder;
   bool matrix = false;  ///< its variants are a [matrix] of schemes
   /// Times that each run is simulated to measure what it costs, after a warm-up and with nothing else
@@ -98,6 +100,9 @@ struct Study {
   std::vector<PlannedRun> runs;  ///< variant by variant, coarse to fine
   StabilityPlan stability;       ///< in place of runs: limits to measure
   std::vector<CheckSpec> checks;
+  /// How many checks the study says that it makes (expected_checks); none where it does not, or where a
+  /// lesser suite runs a part of it.
+  std::optional<std::size_t> declared_checks;
   std::vector<ClaimSpec> claims;
   std::vector<reports::FigureRecord> figures;
   std::optional<Scoreboard> scoreboard;  ///< of a hard case

@@ -80,7 +80,7 @@ fs::path RunCache::file_of(const std::string& key) const {
 }
 
 fs::path RunCache::file(const Study& study, const PlannedRun& plan) const {
-  return study.solver_command.empty() ? file_of(key_of(content_of(study, plan))) : fs::path();
+  return !study.solver ? file_of(key_of(content_of(study, plan))) : fs::path();
 }
 
 std::optional<std::string> RunCache::load(const std::string& content) const {
@@ -103,7 +103,7 @@ std::optional<std::string> RunCache::load(const std::string& content) const {
 }
 
 std::optional<RunData> RunCache::load(const Study& study, const PlannedRun& plan) const {
-  if (!study.solver_command.empty()) return std::nullopt;
+  if (study.solver) return std::nullopt;
   const std::optional<std::string> bytes = load(content_of(study, plan));
   return bytes ? decode_run(*bytes, study, plan) : std::nullopt;
 }
@@ -120,7 +120,7 @@ void RunCache::save(const std::string& content, const std::string& bytes) {
 }
 
 void RunCache::save(const Study& study, const RunData& data) {
-  if (study.solver_command.empty()) save(content_of(study, *data.plan), encode_run(data));
+  if (!study.solver) save(content_of(study, *data.plan), encode_run(data));
 }
 
 std::string RunCache::warning() const {

@@ -137,9 +137,10 @@ class ByteReader {
 
 std::string encode_run(const RunData& data) {
   // Every member of RunData: one that is new must be kept, or be left out here with a reason.
-  const auto& [plan, record, timing, profile, history, shear, state, start, probe, errors] = data;
-  static_cast<void>(plan);    // of the study that asks
-  static_cast<void>(errors);  // measured anew from the profile
+  const auto& [plan, foreign, record, timing, profile, history, shear, state, start, probe, errors] = data;
+  static_cast<void>(plan);     // of the study that asks
+  static_cast<void>(foreign);  // those are not kept
+  static_cast<void>(errors);   // measured anew from the profile
   ByteWriter writer;
   writer.put(static_cast<std::int64_t>(record.particles));
   writer.put(static_cast<std::int64_t>(record.steps));

@@ -10,9 +10,9 @@
 #include "reports/files/io_error.hpp"
 #include "reports/records/result_files.hpp"
 #include "verification/checks/check_reader.hpp"
+#include "verification/runs/foreign/run_foreign.hpp"
 #include "verification/runs/interruption.hpp"
 #include "verification/runs/measures.hpp"
-#include "verification/runs/run_external.hpp"
 #include "verification/runs/run_simulation.hpp"
 #include "verification/runs/scheme_matrix.hpp"
 #include "verification/runs/scores.hpp"
@@ -179,8 +179,7 @@ class SuiteRunner {
 
   RunData simulate(const Study& study, const PlannedRun& plan) {
     try {
-      RunData data =
-          study.solver_command.empty() ? run_simulation(study, plan) : run_external(study, plan, out_);
+      RunData data = study.solver ? run_foreign(study, plan, out_) : run_simulation(study, plan);
       cache_.save(study, data);
       return data;
     } catch (const reports::IoError&) {

@@ -107,6 +107,18 @@ TEST_CASE("checks: red is worse, whether it was green or was not there") {
   CHECK(verdict_on(check_with("0.5", "pass"), none) == Verdict::Missing);
 }
 
+TEST_CASE("what has gone is a regression, and two kinds of file are no pair") {
+  const ScratchDirectory scratch;
+  const std::string header = "study,check,observed,lower,upper,unit,verdict,reason\n";
+  const auto result =
+      compare_results(scratch.write("a.csv", check_with("0.5", "pass")), scratch.write("b.csv", header), {});
+  CHECK(result.front().regressed());
+  CHECK_THAT(comparison_text(result, false, false),
+             contains("1 regressions, 1 of them numbers that have gone"));
+  CHECK_THROWS_WITH(compare_results(scratch.path() / "a.csv", scratch.write("e.csv", errors_with("1")), {}),
+                    contains("compare two files of the same kind"));
+}
+
 TEST_CASE("a run that no longer completes is worse; the text says so") {
   const ScratchDirectory scratch;
   const auto result =
