@@ -60,7 +60,7 @@ Outcome run_program(const std::string& program, const fs::path& directory,
   command.timeout = longest_drawing * static_cast<double>(figures);
   const ChildEnd end = run_child(command);
   Outcome outcome{end.well(), last_lines(log, 20)};
-  if (!outcome.well && (outcome.complaint.empty() || end.exit_code < 0))
+  if (!outcome.well)
     outcome.complaint = end.text() + (outcome.complaint.empty() ? "" : "; " + outcome.complaint);
   std::error_code ignored;
   fs::remove(log, ignored);

@@ -95,7 +95,7 @@ TEST_CASE("a gnuplot that fails is reported once with what it said", "[reports]"
   const EnvironmentVariable broken("MPM_GNUPLOT", (dir / "broken").string());
   const ReportOutcome outcome = write_report(dir.path());
   REQUIRE(outcome.warnings.size() == 1);
-  CHECK_THAT(outcome.warnings[0], contains("status 3"));
+  CHECK_THAT(outcome.warnings[0], contains("exit code 3"));
   CHECK_THAT(outcome.warnings[0], contains("no terminal today"));
 }
 
