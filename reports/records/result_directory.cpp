@@ -20,7 +20,9 @@ namespace fs = std::filesystem;
 bool is_ours_or_empty(const fs::path& directory) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory, error)) {
-    if (entry.path().filename() == ResultDirectory::lock_name) continue;
+    // A log of ours comes first where we are somebody's foreign solver; nothing here writes to it.
+    if (entry.path().filename() == ResultDirectory::lock_name || entry.path().filename() == "log.txt")
+      continue;
     try {
       return read_provenance(directory).has_value();
     } catch (const IoError&) {
