@@ -5,7 +5,10 @@ BUILD   ?= build
 RESULTS ?= results
 PROGRAM  = $(BUILD)/verification/mpm-verify
 
-.PHONY: verify verify-quick verify-deep test bench program packages configure clean
+# Seconds that `make fuzz` gives each of its three harnesses.
+FUZZ_SECONDS ?= 60
+
+.PHONY: verify verify-quick verify-deep test bench fuzz faults program packages configure clean
 
 verify: program
 	$(PROGRAM) run --suite full --out $(RESULTS)
@@ -23,6 +26,19 @@ test: configure
 bench: configure
 	cmake --build $(BUILD) --target mpm-bench
 	$(BUILD)/tests/mpm-bench $(RESULTS)-bench
+
+fuzz: packages
+	cmake --preset fuzz
+	cmake --build build-fuzz --target fuzz-scene fuzz-study fuzz-csv
+	sh tests/fuzz/run-fuzz build-fuzz/tests $(FUZZ_SECONDS)
+
+faults: configure
+	cmake --build $(BUILD) --target plant-faults
+	$(BUILD)/tests/plant-faults tests/faults/faults.list . $(BUILD)-faults/source
+	cmake -S $(BUILD)-faults/source -B $(BUILD)-faults -DCMAKE_BUILD_TYPE=Release -DMPM_NATIVE_KERNELS=OFF \
+	  -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_CXX_FLAGS="-include $(CURDIR)/tests/faults/fault.hpp"
+	cmake --build $(BUILD)-faults --target mpm-verify unit_tests
+	sh tests/faults/run-faults $(BUILD)-faults $(RESULTS)-faults
 
 program: configure
 	cmake --build $(BUILD) --target mpm-verify

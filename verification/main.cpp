@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "build_info.hpp"
@@ -10,6 +11,7 @@
 #include "solver/kernel/isa.hpp"
 #include "solver/scene/scene.hpp"
 #include "verification/commands/commands.hpp"
+#include "verification/commands/output.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/reading/study_folder.hpp"
 
@@ -50,6 +52,8 @@ int dispatch(int argc, char** argv) {
   run_app->add_option("--studies", studies, studies_help);
   auto* no_cache = run_app->add_flag("--no-cache", run.no_cache,
                                      "Run everything; neither use nor fill the cache of finished runs");
+  run_app->add_flag("--force", run.force,
+                    "Write into --out even if it holds files that are no results of ours");
   run_app->add_flag("--fresh", run.fresh, "Run everything, and replace what the cache of finished runs holds")
       ->excludes(no_cache);
   run_app->add_flag("--resume", run.resume,
@@ -93,6 +97,8 @@ int dispatch(int argc, char** argv) {
   for (auto* sub : {solve_app, reference_app}) {
     sub->add_option("SCENE", scene.scene, "Scene file (TOML)")->required();
     sub->add_option("--out", scene.out, "Directory of the results")->required();
+    sub->add_flag("--force", scene.force,
+                  "Write into --out even if it holds files that are no results of ours");
   }
 
   solve_app->add_flag("--no-figures", scene.no_figures, "Draw nothing: for timing, and for many scenes");
@@ -129,20 +135,25 @@ int dispatch(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  verification::hold_standard_streams();
   reports::end_children_on_signals();
   try {
-    return dispatch(argc, argv);
+    return verification::finish_output(dispatch(argc, argv));
   } catch (const verification::ConfigError& error) {
-    fmt::print(stderr, "mpm-verify: {}\n", error.what());
+    verification::warn("mpm-verify: {}\n", error.what());
     return 2;
   } catch (const reports::IoError& error) {
-    fmt::print(stderr, "mpm-verify: {}\n", error.what());
+    verification::warn("mpm-verify: {}\n", error.what());
     return 2;
   } catch (const mpm::SceneError& error) {
-    fmt::print(stderr, "mpm-verify: {}\n", error.what());
+    verification::warn("mpm-verify: {}\n", error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    verification::warn(
+        "mpm-verify: out of memory: give fewer cells, particles or outputs, or fewer --jobs\n");
     return 2;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "mpm-verify: internal error: {}\n", error.what());
+    verification::warn("mpm-verify: internal error: {}\n", error.what());
     return 3;
   }
 }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+
+#include "reference/interruption.hpp"
 
 namespace reference {
 namespace {
@@ -10,6 +13,7 @@ namespace {
 using Stages = ShearDiffusion::Stages;
 
 constexpr double kLongestStep = 0.1;  // of the time since the start
+constexpr long kMostSteps = 100000;   // a hundred times what the slowest known problem takes
 
 /// Extrapolates the collocation polynomial of a step of length `h` to the stages of the next one, of length
 /// `next`.
@@ -51,8 +55,13 @@ GradientHistory integrate_shear(const ShearDiffusion& diffusion, const SpectralL
   Stages stages, previous_stages;
   std::vector<double> previous_start;
   double t = settings.start_time, h = settings.first_step, previous_h = 0.0;
+  long tried = 0;
   // One step beyond the end, so that times before it lie between two steps on either side.
   for (bool beyond = false; !beyond;) {
+    between_steps();
+    if (++tried > kMostSteps)
+      throw std::runtime_error("transient channel: no end after " + std::to_string(kMostSteps) +
+                               " time steps");
     const bool extrapolated = previous_h > 0.0;
     if (extrapolated) {
       stages = extrapolate(previous_start, previous_stages, previous_h, h);

@@ -95,7 +95,11 @@ std::filesystem::path transient_file(const std::filesystem::path& directory, con
 std::optional<StoredTransient> load_transient(const std::filesystem::path& directory,
                                               const std::string& key) {
   if (directory.empty()) return std::nullopt;
-  std::ifstream file(transient_file(directory, key), std::ios::binary);
+  const std::filesystem::path path = transient_file(directory, key);
+  std::error_code error;
+  // A FIFO or a device would never end.
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error))) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   const std::string head = header(key);

@@ -18,7 +18,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// The names in the first line of a file.
 std::vector<std::string> header_of(const fs::path& file) {
-  const std::string content = read_file(file);
+  std::string content = read_file(file);
+  if (content.starts_with("\xef\xbb\xbf"))
+    content.erase(0, 3);  // a byte order mark, which read_csv passes over too
   std::vector<std::string> names;
   std::istringstream line(content.substr(0, content.find_first_of("\r\n")));
   for (std::string name; std::getline(line, name, ',');) names.push_back(name);

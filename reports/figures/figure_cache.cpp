@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view header = "mpm-verify figure, format 1\n";  // of every entry
+
 /// One file a figure: its key in full (so that no collision goes unseen), then checksum, size and bytes of
 /// each image.
 std::string packed(const std::string& key, const std::string& svg, const std::string& png) {
@@ -50,6 +52,7 @@ void prune(const fs::path& directory) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory, error)) {
     std::error_code gone;
+    if (entry.path().extension() != ".figure" || !is_entry(entry.path(), header)) continue;  // not ours
     files.emplace_back(entry.last_write_time(gone), entry.path());
   }
   if (files.size() <= FigureCache::limit) return;
@@ -64,8 +67,8 @@ FigureCache::FigureCache(const fs::path& directory, const std::string& program) 
   struct stat file {};
   if (directory.empty() || stat(program.c_str(), &file) != 0) return;
   directory_ = directory / "figures";
-  program_ = fmt::format("mpm-verify figure, format 1\n{} {} {}.{}\n", program, file.st_size,
-                         file.st_mtim.tv_sec, file.st_mtim.tv_nsec);
+  program_ = fmt::format("{}{} {} {}.{}\n", header, program, file.st_size, file.st_mtim.tv_sec,
+                         file.st_mtim.tv_nsec);
 }
 
 fs::path FigureCache::file(const std::string& script) const {
@@ -76,7 +79,7 @@ bool FigureCache::fetch(const std::string& script, const fs::path& svg, const fs
   std::error_code error;
   if (directory_.empty() || !fs::exists(file(script), error)) return false;
   try {
-    const auto images = unpacked(program_ + script + "\n", read_file(file(script)));
+    const auto images = unpacked(program_ + script + "\n", read_entry(file(script)));
     if (!images) return false;
     write_file(svg, images->svg, Durability::Unsynced);
     write_file(png, images->png, Durability::Unsynced);

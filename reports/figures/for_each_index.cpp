@@ -3,6 +3,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -25,7 +26,11 @@ void for_each_index(std::size_t count, int jobs, const std::function<void(std::s
   };
   {
     std::vector<std::jthread> pool;
-    for (int i = 1; i < jobs; ++i) pool.emplace_back(work);
+    try {
+      for (int i = 1; i < jobs; ++i) pool.emplace_back(work);
+    } catch (const std::system_error&) {
+      // A limit on processes: those that there are share out the work.
+    }
     work();
   }
   if (cause) std::rethrow_exception(cause);

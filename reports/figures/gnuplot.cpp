@@ -14,6 +14,7 @@
 #include "reports/figures/for_each_index.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
+#include "reports/files/utf8.hpp"
 #include "reports/process/child.hpp"
 
 namespace reports {
@@ -144,8 +145,17 @@ std::string gnuplot_text(std::string_view text) {
   // that begins with an escaped one.
   static constexpr std::string_view special = "\"'`\\@$;#";
   std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '\n') {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const std::size_t length = character_length(text, i);
+    if (length == 0) {
+      quoted += '?';  // no character, or one that XML forbids
+    } else if (length > 1) {
+      quoted += text.substr(i, length);
+      i += length - 1;
+    } else if (c == '>' && i >= 2 && text.substr(i - 2, 2) == "]]") {
+      quoted += " >";  // "]]>" would end the CDATA that gnuplot writes into an SVG
+    } else if (c == '\n') {
       quoted += "\\n";
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
       quoted += ' ';

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <regex>
 #include <system_error>
 
 #include "reports/files/io_error.hpp"
@@ -30,7 +31,8 @@ const char* remedy(int error) {
 }
 
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, int error) {
-  throw IoError(fmt::format("cannot write {}: {}; {}", path.string(), std::strerror(error), remedy(error)));
+  throw IoError(fmt::format("cannot write {}: {}; {}", path.string(), std::strerror(error), remedy(error)),
+                error);
 }
 
 // A file descriptor with the temporary file behind it; both are gone after a failure.
@@ -82,6 +84,14 @@ void write_file(const std::filesystem::path& path, std::string_view content, Dur
   file.commit(durability);
 }
 
+bool is_temporary(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error))) return false;
+  // NAME.PROCESS.SERIAL.tmp
+  static const std::regex ours(R"(.+\.[0-9]+\.[0-9]+\.tmp)");
+  return std::regex_match(path.filename().string(), ours);
+}
+
 void keep_file(const std::filesystem::path& path, std::string_view content) {
   std::error_code error;
   if (std::filesystem::is_regular_file(path, error) &&
@@ -95,12 +105,36 @@ void keep_file(const std::filesystem::path& path, std::string_view content) {
   write_file(path, content, Durability::Unsynced);
 }
 
+std::string read_entry(const std::filesystem::path& path) {
+  struct stat facts {};
+  if (lstat(path.c_str(), &facts) != 0)
+    throw IoError(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
+  if (!S_ISREG(facts.st_mode)) throw IoError(fmt::format("{} is no regular file", path.string()));
+  return read_file(path);
+}
+
+bool is_entry(const std::filesystem::path& path, std::string_view header) {
+  struct stat facts {};
+  if (lstat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode)) return false;
+  const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  std::string begin(header.size(), '\0');
+  const ssize_t got = read(descriptor, begin.data(), begin.size());
+  close(descriptor);
+  return got == static_cast<ssize_t>(header.size()) && begin == header;
+}
+
 std::string read_file(const std::filesystem::path& path) {
   const auto fail = [&](int error) -> std::string {
     throw IoError(fmt::format("cannot read {}: {}", path.string(), std::strerror(error)));
   };
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return fail(errno);
+  struct stat facts {};
+  if (fstat(descriptor, &facts) == 0 && S_ISCHR(facts.st_mode)) {  // /dev/zero has no end
+    close(descriptor);
+    return fail(EINVAL);
+  }
   std::string content;
   char block[1 << 16];
   while (true) {

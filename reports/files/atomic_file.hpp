@@ -21,6 +21,17 @@ void keep_file(const std::filesystem::path& path, std::string_view content);
 /// The whole content of a file. @throws IoError if it is missing, a directory, or unreadable.
 std::string read_file(const std::filesystem::path& path);
 
+/// Whether this is a temporary file that write_file() of a killed program left: a regular file of that
+/// naming.
+bool is_temporary(const std::filesystem::path& path);
+
+/// The bytes of an entry of a cache: a regular file, and no symbolic link. @throws IoError for anything else:
+/// a FIFO or a device would never end.
+std::string read_entry(const std::filesystem::path& path);
+
+/// Whether that is a regular file, no link, that begins with `header`: one that we wrote and may delete.
+bool is_entry(const std::filesystem::path& path, std::string_view header);
+
 /// Make `path` and its parents, unless it is a directory already.
 /// @throws IoError if that fails or `path` exists and is no directory.
 void ensure_directory(const std::filesystem::path& path);

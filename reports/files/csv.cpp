@@ -22,7 +22,29 @@ void append_number(std::string& line, T number) {
 
 }  // namespace
 
+namespace {
+
+/// Whether a spreadsheet would take a text for a formula: "=...", "@...", and "+..." or "-..." unless they
+/// are numbers or a list of them.
+bool looks_like_formula(std::string_view text) {
+  if (text.empty()) return false;
+  if (text.front() == '=' || text.front() == '@') return true;
+  return (text.front() == '+' || text.front() == '-') &&
+         text.find_first_not_of("0123456789.+-eE;") != text.npos && !text.ends_with("nan") &&
+         !text.ends_with("inf");
+}
+
+/// The same of what is behind leading apostrophes. Such a text gets an apostrophe more when it is written,
+/// which makes it text for a spreadsheet, and loses it when it is read.
+bool reads_as_formula(std::string_view text) {
+  return looks_like_formula(text.substr(std::min(text.find_first_not_of('\''), text.size())));
+}
+
+}  // namespace
+
 void append_field(std::string& line, std::string_view text) {
+  const std::string marked = reads_as_formula(text) ? "'" + std::string(text) : std::string();
+  if (!marked.empty()) text = marked;
   const bool outer_blank = !text.empty() && (std::string_view(" \t").find(text.front()) != text.npos ||
                                              std::string_view(" \t").find(text.back()) != text.npos);
   if (!outer_blank && text.find_first_of(",\"\n\r") == text.npos) {
@@ -54,6 +76,7 @@ void append_field(std::string& line, bool truth) {
 }
 
 bool parse_field(std::string_view field, std::string& text) {
+  if (field.starts_with('\'') && reads_as_formula(field)) field.remove_prefix(1);
   text = field;
   std::replace(text.begin(), text.end(), newline_mark, '\n');
   return true;

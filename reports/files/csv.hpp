@@ -22,7 +22,8 @@
 
 // CSV with a header, both ways from one declarative table of columns (result_files.cpp). Numbers are written
 // in the shortest form that reads back to the same bits; text is quoted when it has a comma, quote, newline
-// or outer blank.
+// or outer blank. A text
+// that a spreadsheet would take for a formula has an apostrophe before it, which reading takes off.
 namespace reports {
 
 /// One column: its name in the header and the member that it holds.

@@ -4,29 +4,11 @@
 
 #include <cmath>
 
+#include "reports/files/utf8.hpp"
 #include "reports/records/report_data.hpp"
 
 namespace reports {
 namespace {
-
-// Length in bytes of the well-formed UTF-8 character at `i`, 0 if there is none.
-std::size_t character_length(const std::string& text, std::size_t i) {
-  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
-  const auto follows = [&](std::size_t k) { return (byte(k) & 0xc0u) == 0x80u; };
-  const unsigned first = byte(i), second = byte(i + 1);
-  if (first < 0x80) return 1;
-  if (first >= 0xc2 && first <= 0xdf) return follows(i + 1) ? 2 : 0;
-  if (first >= 0xe0 && first <= 0xef) {
-    const bool overlong = first == 0xe0 && second < 0xa0, surrogate = first == 0xed && second >= 0xa0;
-    const bool noncharacter = first == 0xef && second == 0xbf && byte(i + 2) >= 0xbe;
-    return follows(i + 1) && follows(i + 2) && !overlong && !surrogate && !noncharacter ? 3 : 0;
-  }
-  if (first >= 0xf0 && first <= 0xf4) {
-    const bool outside = (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90);
-    return follows(i + 1) && follows(i + 2) && follows(i + 3) && !outside ? 4 : 0;
-  }
-  return 0;
-}
 
 std::string time_attribute(double wall) {
   return std::isnan(wall) ? "" : fmt::format(" time=\"{:.6f}\"", wall);
@@ -71,9 +53,13 @@ std::string junit_report(const Results& results) {
     if (checks.empty()) continue;
     std::size_t failed = 0;
     std::string cases;
+    const double wall = wall_time_of(results, study.study);
+    // Runs serve all checks of their study: each has an equal share of their time, so that sums over cases
+    // are right.
+    const std::string share = time_attribute(wall / static_cast<double>(checks.size()));
     for (const CheckRecord* check : checks) {
-      cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\"", xml_text(check->study),
-                           xml_text(check->check));
+      cases += fmt::format("    <testcase classname=\"{}\" name=\"{}\"{}", xml_text(check->study),
+                           xml_text(check->check), share);
       if (holds(*check)) {
         cases += "/>\n";
         continue;
@@ -84,7 +70,6 @@ std::string junit_report(const Results& results) {
                                                 with_unit(bounds(*check), *check))),
                            xml_text(check->reason));
     }
-    const double wall = wall_time_of(results, study.study);
     if (!std::isnan(wall)) total = (std::isnan(total) ? 0 : total) + wall;
     suites +=
         fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\"{}>\n{}",

@@ -252,7 +252,7 @@ bool is_plain_name(const std::string& name) {
   };
   const bool other_file = name.ends_with(".history") || name.ends_with(".shear") || name.ends_with(".state");
   // A file name may have 255 bytes; the ending and the temporary file's number need some of them.
-  return !name.empty() && name.size() <= 200 && name.front() != '.' && !other_file &&
+  return !name.empty() && name.size() <= 200 && name.front() != '.' && name.front() != '-' && !other_file &&
          std::all_of(name.begin(), name.end(), plain);
 }
 
@@ -260,7 +260,7 @@ const std::string& require_plain_name(const char* what, const std::string& name)
   if (is_plain_name(name)) return name;
   throw IoError(
       fmt::format("{} name '{}' cannot be a file name; use up to 200 letters, digits and . _ = -, no "
-                  "leading dot, no '.history', '.shear' or '.state' at the end",
+                  "leading dot or dash, no '.history', '.shear' or '.state' at the end",
                   what, name));
 }
 
@@ -329,8 +329,9 @@ void remove_tables(const std::filesystem::path& dir) {
                            "figures.csv", "claims.csv",  "matrix.csv",   "scoreboard.csv", "stability.csv"})
     std::filesystem::remove(dir / name, ignored);
   for (const char* part : {".", "profiles", "scenes", "figures"})
-    for (const auto& entry : std::filesystem::directory_iterator(dir / part, ignored))
-      if (entry.path().extension() == ".tmp") std::filesystem::remove(entry.path(), ignored);
+    if (!std::filesystem::is_symlink(dir / part, ignored))
+      for (const auto& entry : std::filesystem::directory_iterator(dir / part, ignored))
+        if (is_temporary(entry.path())) std::filesystem::remove(entry.path(), ignored);
 }
 
 std::vector<ProfileRow> read_profile(const std::filesystem::path& dir, const std::string& run) {

@@ -1,9 +1,15 @@
 #include "solver/kernel/thread_team.hpp"
 
+#include <system_error>
+
 namespace mpm {
 
 ThreadTeam::ThreadTeam(int threads) {
-  for (int i = 1; i < threads; ++i) helpers_.emplace_back([this] { serve(); });
+  try {
+    for (int i = 1; i < threads; ++i) helpers_.emplace_back([this] { serve(); });
+  } catch (const std::system_error&) {
+    // A limit on processes: those that there are share out the work.
+  }
 }
 
 ThreadTeam::~ThreadTeam() {

@@ -53,7 +53,8 @@ std::vector<Segment> plan_segments(const TimeStepRule& rule, const Scene& scene,
     const double ratio = (end - begin) / dt;
     if (ratio > 1e12) throw SceneError("dt is too small for the end time: over 1e12 steps");
     const long steps = std::max(1L, static_cast<long>(std::ceil(ratio - sliver)));
-    const bool equal = rule.dt == 0 || std::abs(ratio - static_cast<double>(steps)) < sliver;
+    // One step that is shorter than asked for is as long as it is.
+    const bool equal = rule.dt == 0 || steps == 1 || std::abs(ratio - static_cast<double>(steps)) < sliver;
     segments.push_back({begin, end, equal ? (end - begin) / static_cast<double>(steps) : dt, steps});
     begin = end;
   }

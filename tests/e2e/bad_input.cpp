@@ -50,6 +50,17 @@ TEST_CASE("a scene that cannot be meant is refused with file, key and remedy") {
   check_refused(solve(with("end = 0.01", "outputs = [0.02, 0.01]")), "'time.outputs'");
   check_refused(solve(good_scene + "[scheme]\nstepping = \"ufs\"\n"), "usf, usl, musl");
   check_refused(run_program("solve " + (scratch.path() / "absent.toml").string() + out), "absent.toml");
+  check_refused(solve(with("cells = 10", "cells = 1000000000")), "'discretisation.cells'");
+  check_refused(solve(with("height = 1e-3", "height = 1e308")), "'scene.height'");
+  check_refused(solve(with("= 1e-6", "= 1e300")), "'fluid.kinematic_viscosity'");
+  check_refused(solve(with("end = 0.01", "outputs = [5e-324]")), "'time.outputs'");
+  check_refused(solve(good_scene + std::string("[\xc3\xa9]\n")), "beyond ASCII");
+  std::filesystem::create_directory(scratch / "dir.toml");
+  check_refused(run_program("run " + (scratch / "dir.toml").string()), "is a directory");
+  check_refused(run_program("run " + scratch.write("-e.toml", good_scene)), "dash");
+  std::string deep = "a";
+  for (int i = 0; i < 40000; ++i) deep += ".a";
+  check_refused(solve(deep + " = 1\n"), "nested");
   CHECK_FALSE(std::filesystem::exists(scratch.path() / "out"));
 }
 

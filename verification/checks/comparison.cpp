@@ -70,6 +70,7 @@ double largest_difference(const RunData& run, const RunData& other, double t, Lo
 }
 
 double mass_drift(const RunData& run) {
+  if (run.history.empty()) return nan;
   double largest = 0;
   for (const reports::HistoryRow& row : run.history)
     largest = worst(largest, std::abs(row.mass / run.history.front().mass - 1));
@@ -77,6 +78,7 @@ double mass_drift(const RunData& run) {
 }
 
 double momentum_drift(const RunData& run) {
+  if (run.history.empty()) return nan;
   const reports::HistoryRow& start = run.history.front();
   double largest = 0, present = start.mass * run.plan->scene.flow->velocity_scale();
   for (const reports::HistoryRow& row : run.history) {

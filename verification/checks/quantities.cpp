@@ -113,7 +113,7 @@ double decay_error(const RunData& run) {
 /// there is none.
 std::complex<double> relative_amplitude(const RunData& run) {
   const auto driven = run.plan->scene.flow->oscillation();
-  if (!driven || driven->decay_rate != 0 || !run.completed()) return nan;
+  if (!driven || driven->decay_rate != 0 || !run.completed() || run.history.empty()) return nan;
   const double omega = driven->angular_frequency, period = 2 * std::numbers::pi / omega;
   const double begin = run.history.back().t - period * (1 + 1e-9);
   if (begin < run.history.front().t - 1e-6 * period) return nan;

@@ -22,6 +22,7 @@ struct RunOptions {
   int jobs = 0;                ///< 0: as many as there are cores
   bool no_cache = false;       ///< leave the cache of finished runs alone
   bool fresh = false;          ///< run everything, and replace what the cache holds
+  bool force = false;          ///< `out` may hold files that are not ours
   bool resume = false;         ///< `out` must hold a suite that was begun
   bool keep_profiles = false;  ///< of every run, drawn or not
   std::string command_line;
@@ -30,6 +31,7 @@ int run_command(const RunOptions& options);
 
 struct SceneOptions {
   std::filesystem::path scene, out;
+  bool force = false;       ///< `out` may hold files that are not ours
   bool no_figures = false;  ///< solve: leave the drawing to a later `report`
   std::string command_line;
 };

@@ -1,22 +1,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "reports/compare/earlier_run.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/console_table.hpp"
 #include "reports/pages/report.hpp"
+#include "reports/records/result_directory.hpp"
 #include "reports/records/scoreboard.hpp"
 #include "verification/commands/commands.hpp"
+#include "verification/commands/output.hpp"
 #include "verification/commands/provenance_of.hpp"
 #include "verification/commands/terminal.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/config/machine.hpp"
 #include "verification/flows/reference_store.hpp"
 #include "verification/reading/scoreboard_reader.hpp"
 #include "verification/reading/study_folder.hpp"
 #include "verification/reading/study_reader.hpp"
 #include "verification/runs/interruption.hpp"
+#include "verification/scene/scene_cost.hpp"
 #include "verification/suite/run_suite.hpp"
 
 namespace verification {
@@ -49,10 +52,26 @@ void print_study_line(const StudyData& data, bool colour) {
   for (const auto& timing : data.stability_timings) wall += timing.wall_s;
   const char* verdict =
       failed ? (colour ? "\033[31mFAIL\033[0m" : "FAIL") : (colour ? "\033[32mpass\033[0m" : "pass");
-  fmt::print("{} {:<34} {:>4} of {:>4} checks {:>5} runs {:>8.2f} s\n", verdict, data.study->name,
-             data.checks.size() - static_cast<std::size_t>(failed), data.checks.size(),
-             data.runs.size() + data.stability_timings.size(), wall);
+  say("{} {:<34} {:>4} of {:>4} checks {:>5} runs {:>8.2f} s\n", verdict, data.study->name,
+      data.checks.size() - static_cast<std::size_t>(failed), data.checks.size(),
+      data.runs.size() + data.stability_timings.size(), wall);
   std::fflush(stdout);
+}
+
+/// Says of studies whose runs are all expected to complete which steps are longer than the scheme is known to
+/// bear.
+void warn_of_steps(const std::vector<Study>& studies) {
+  for (const Study& study : studies) {
+    const bool fate_declared = std::ranges::any_of(study.checks, [](const CheckSpec& check) {
+      return check.kind == "divergence" || check.kind == "outcome";
+    });
+    if (fate_declared || !study.solver_command.empty()) continue;
+    for (const PlannedRun& run : study.runs)
+      if (const std::string warning = step_warning(run.scene); !warning.empty()) {
+        warn("warning: run {}: {}\n", run.run, warning);
+        break;  // one of a study is enough
+      }
+  }
 }
 
 /// A suite can go on where it stopped if it was begun there and if finished runs are kept at all.
@@ -70,7 +89,7 @@ void require_begun(const RunOptions& options, const RunCache& cache) {
 }  // namespace
 
 int job_count(int asked) {
-  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return asked > 0 ? asked : available_cores();
 }
 
 int run_command(const RunOptions& options) {
@@ -85,16 +104,17 @@ int run_command(const RunOptions& options) {
   const bool progress = show_progress(), colour = use_colour();
   if (progress)
     listener.run_ended = [](long done, long total, const std::string& run) {
-      fmt::print(stderr, "\r\033[K[{}/{} runs] {}", done, total, run);
-      if (done == total) fmt::print(stderr, "\r\033[K");
+      warn("\r\033[K[{}/{} runs] {}", done, total, run);
+      if (done == total) warn("\r\033[K");
     };
   listener.study_ended = [&](const StudyData& data) {
-    if (progress) fmt::print(stderr, "\r\033[K");
+    if (progress) warn("\r\033[K");
     print_study_line(data, colour);
   };
+  warn_of_steps(studies);
+  const reports::ResultDirectory ours(options.out, options.force);
   const reports::EarlierRun earlier(options.out);
   // Provenance first: an interrupted run still says what made its files.
-  reports::ensure_directory(options.out);
   reports::write_provenance(options.out, provenance_of(options.command_line));
   SuiteOutcome outcome;
   try {
@@ -102,9 +122,9 @@ int run_command(const RunOptions& options) {
     outcome = run_suite(studies, options.out, jobs, cache, listener,
                         options.keep_profiles ? Profiles::All : Profiles::Needed);
   } catch (const Interrupted& stop) {
-    if (progress) fmt::print(stderr, "\r\033[K");
-    fmt::print(stderr, "mpm-verify: interrupted; {} holds the studies that had ended{}\n",
-               options.out.string(), cache.on() ? ", and the same command goes on from there" : "");
+    if (progress) warn("\r\033[K");
+    warn("mpm-verify: interrupted; {} holds the studies that had ended{}\n", options.out.string(),
+         cache.on() ? ", and the same command goes on from there" : "");
     return 128 + stop.signal;
   }
   cache.prune();
@@ -112,14 +132,13 @@ int run_command(const RunOptions& options) {
   const reports::ReportOutcome report = reports::write_report(options.out, {kept, jobs});
 
   const auto lines = reports::without_expected_outcomes(outcome.results);
-  fmt::print("\n{}", reports::console_table(lines, colour, outcome.results.checks.size() - lines.size()));
-  for (const std::string& warning : report.warnings) fmt::print(stderr, "warning: {}\n", warning);
-  if (const std::string warning = cache.warning(); !warning.empty())
-    fmt::print(stderr, "warning: {}\n", warning);
-  fmt::print("runs: {}, of which {} taken from the cache\n", outcome.runs, outcome.from_cache);
-  fmt::print("report: {}\n", (options.out / "report.html").string());
+  say("\n{}", reports::console_table(lines, colour, outcome.results.checks.size() - lines.size()));
+  for (const std::string& warning : report.warnings) warn("warning: {}\n", warning);
+  if (const std::string warning = cache.warning(); !warning.empty()) warn("warning: {}\n", warning);
+  say("runs: {}, of which {} taken from the cache\n", outcome.runs, outcome.from_cache);
+  say("report: {}\n", (options.out / "report.html").string());
   if (!outcome.failures.empty()) {
-    for (const std::string& failure : outcome.failures) fmt::print(stderr, "error: run {}\n", failure);
+    for (const std::string& failure : outcome.failures) warn("error: run {}\n", failure);
     return 3;
   }
   return report.passed ? 0 : 1;

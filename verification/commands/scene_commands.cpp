@@ -2,13 +2,16 @@
 
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/report.hpp"
+#include "reports/records/result_directory.hpp"
 #include "reports/records/result_files.hpp"
 #include "verification/commands/commands.hpp"
+#include "verification/commands/output.hpp"
 #include "verification/commands/provenance_of.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/flows/reference_store.hpp"
 #include "verification/runs/measures.hpp"
 #include "verification/runs/run_simulation.hpp"
+#include "verification/scene/scene_cost.hpp"
 
 namespace verification {
 namespace {
@@ -61,8 +64,14 @@ void write_interchange(const std::filesystem::path& out, const RunData& data) {
 
 int solve_command(const SceneOptions& options) {
   const Study study = study_of_scene(options);
+  const SceneConfig& scene = study.runs.front().scene;
+  const reports::ResultDirectory ours(options.out, options.force);
   reports::ensure_directory(options.out / "profiles");
   reports::write_provenance(options.out, provenance_of(options.command_line), unsynced);
+  say("{}: {}\n", study.name, described_cost(scene));
+  std::fflush(stdout);
+  if (const std::string warning = step_warning(scene); !warning.empty())
+    warn("warning: {}: {}\n", study.name, warning);
   RunData data = run_simulation(study, study.runs.front());
   data.errors = measure_errors(data);
   reports::write_profile(options.out, data.record.run, data.profile);
@@ -82,16 +91,16 @@ int solve_command(const SceneOptions& options) {
   reports::write_results(options.out, results, unsynced);
   if (!options.no_figures)
     for (const std::string& warning : reports::write_figures(options.out, {cache_directory(), job_count(0)}))
-      fmt::print(stderr, "warning: {}\n", warning);
+      warn("warning: {}\n", warning);
 
-  fmt::print("{}: {}; {} particles, {} steps, {:.3g} s, {:.3g} particle-steps/s\n", data.record.run,
-             data.record.status, data.record.particles, data.record.steps, data.timing.wall_s,
-             data.timing.particle_steps_per_s);
+  say("{}: {}; {} particles, {} steps, {:.3g} s, {:.3g} particle-steps/s\n", data.record.run,
+      data.record.status, data.record.particles, data.record.steps, data.timing.wall_s,
+      data.timing.particle_steps_per_s);
   if (study.runs.front().scene.flow->has_exact()) {
-    fmt::print("errors relative to {:.6g} m/s\n{:>12} {:<10} {:>12} {:>12} {:>12}\n",
-               study.runs.front().scene.flow->velocity_scale(), "t [s]", "location", "L1", "L2", "Linf");
+    say("errors relative to {:.6g} m/s\n{:>12} {:<10} {:>12} {:>12} {:>12}\n",
+        study.runs.front().scene.flow->velocity_scale(), "t [s]", "location", "L1", "L2", "Linf");
     for (const reports::ErrorRecord& e : data.errors)
-      fmt::print("{:>12} {:<10} {:>12.4e} {:>12.4e} {:>12.4e}\n", e.t, e.location, e.l1, e.l2, e.linf);
+      say("{:>12} {:<10} {:>12.4e} {:>12.4e} {:>12.4e}\n", e.t, e.location, e.l1, e.l2, e.linf);
   }
   return data.completed() ? 0 : 3;
 }
@@ -103,6 +112,7 @@ int reference_command(const SceneOptions& options) {
   if (!exact)
     throw ConfigError(options.scene.string() + ": key 'scene.flow': no exact solution is known for '" +
                       scene.flow_name + "'");
+  const reports::ResultDirectory ours(options.out, options.force);
   reports::ensure_directory(options.out / "profiles");
   reports::write_provenance(options.out, provenance_of(options.command_line));
   reports::write_profile(options.out, study.name, exact_lines(scene, *exact));
@@ -110,9 +120,9 @@ int reference_command(const SceneOptions& options) {
     reports::write_shear(options.out, study.name, shear);
   if (const auto state = exact_state(scene, *exact); !state.empty())
     reports::write_state(options.out, study.name, state);
-  fmt::print("{}: {}\n", study.name, exact->description());
-  fmt::print("profiles at {} times: {}\n", scene.outputs.size(),
-             (options.out / "profiles" / (study.name + ".csv")).string());
+  say("{}: {}\n", study.name, exact->description());
+  say("profiles at {} times: {}\n", scene.outputs.size(),
+      (options.out / "profiles" / (study.name + ".csv")).string());
   return 0;
 }
 

@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <numeric>
 #include <set>
 #include <sstream>
 #include <utility>
 
+#include "reports/files/utf8.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/config/toml_text.hpp"
 
 namespace verification {
 
@@ -111,14 +112,11 @@ void print_table(std::string& text, const std::string& path, const toml::table& 
 TomlTable::TomlTable(std::shared_ptr<Data> data) : data_(std::move(data)) {}
 
 TomlTable TomlTable::from_file(const std::string& path) {
-  std::ifstream in(path);
-  std::ostringstream content;
-  if (in) content << in.rdbuf();
-  if (!in || in.bad()) throw ConfigError(path + ": cannot be read; give the path of a TOML file");
-  return from_text(content.str(), path);
+  return from_text(read_toml_text(path), path);
 }
 
 TomlTable TomlTable::from_text(const std::string& text, const std::string& origin) {
+  require_sound_toml(text, origin);
   try {
     auto data = std::make_shared<Data>();
     data->table = toml::parse(text);
@@ -167,10 +165,16 @@ void TomlTable::accept(const std::string& key) {
 
 namespace {
 
+constexpr double smallest_number = 1e-30, largest_number = 1e30;
+
 double finite_number(const TomlTable& table, const std::string& key, const toml::node* node) {
   const auto value = node ? node->value<double>() : std::nullopt;
   if (!value || node->is_boolean()) table.fail(key, "must be a number");
   if (!std::isfinite(*value)) table.fail(key, "must be finite");
+  // In SI units nothing here is that small or large, and products of such numbers would under- or overflow.
+  if (*value != 0 && !(std::abs(*value) >= smallest_number && std::abs(*value) <= largest_number))
+    table.fail(key, fmt::format("is {}: must be 0 or lie between {:g} and {:g} in size", *value,
+                                smallest_number, largest_number));
   return *value;
 }
 
@@ -183,7 +187,11 @@ int whole_number(const TomlTable& table, const std::string& key, const toml::nod
 
 std::string word(const TomlTable& table, const std::string& key, const toml::node* node) {
   if (!node || !node->is_string()) table.fail(key, "must be a text in quotes");
-  return *node->value<std::string>();
+  const std::string text = *node->value<std::string>();
+  // TOML's escapes can make what the file itself may not hold.
+  if (std::ranges::any_of(text, reports::is_control) || reports::first_broken_byte(text) != std::string::npos)
+    table.fail(key, "must not hold control characters or what is no character");
+  return text;
 }
 
 template <class Element>

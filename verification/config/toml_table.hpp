@@ -23,7 +23,8 @@ class TomlTable {
   /// All keys of this table, marked as read.
   std::vector<std::string> keys();
 
-  // Required values. A number must be finite; an integer must have no fraction.
+  // Required values. A number must be finite, and 0 or between 1e-30 and 1e30 in size; an integer must have
+  // no fraction; a text holds no control characters but tabs and newlines.
   double number(const std::string& key);
   int integer(const std::string& key);
   std::string text(const std::string& key);

@@ -10,7 +10,8 @@ namespace verification {
 
 std::filesystem::path cache_directory() {
   if (const char* chosen = std::getenv("MPM_CACHE")) return chosen;
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg)
+  // The XDG base directory specification: a relative path is invalid, and ignored.
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg == '/')
     return std::filesystem::path(xdg) / "mpm-verify";
   if (const char* home = std::getenv("HOME"); home && *home)
     return std::filesystem::path(home) / ".cache" / "mpm-verify";

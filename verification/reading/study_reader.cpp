@@ -99,6 +99,20 @@ Ladder ladder_for(const Study& study, const TomlTable& scene) {
   return ladder;
 }
 
+/// A level whose dt does not divide the time between outputs is run with another step than the ladder says:
+/// one step in N is shorter. From a hundred on that is below a per cent of the step; fewer are refused.
+void require_whole_steps(const TomlTable& table, const SceneConfig& scene, double dt) {
+  constexpr double many_steps = 100;
+  double before = scene.start;
+  for (const double t : scene.outputs) {
+    const double steps = (t - before) / dt;
+    if (steps < 0.5 || (steps < many_steps && std::abs(steps - std::round(steps)) > 1e-6))
+      table.fail("ladder.dt", fmt::format("{} s does not divide the time from {} s to {} s between outputs",
+                                          dt, before, t));
+    before = t;
+  }
+}
+
 void plan_runs(Study& study, const TomlTable& scene, const std::string& variant) {
   const Ladder ladder = ladder_for(study, scene);
   const std::size_t levels = ladder.axis == Axis::Space  ? ladder.cells.size()
@@ -109,6 +123,7 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
     PlannedRun planned;
     std::string tag;
     planned.scene = read_scene_config(at_level(scene, ladder, static_cast<int>(level), tag));
+    if (ladder.axis == Axis::Time) require_whole_steps(scene, planned.scene, ladder.dt[level]);
     planned.variant = variant;
     planned.theoretical = ladder.theoretical;
     planned.theoretical_particles = ladder.theoretical_particles;
@@ -237,9 +252,9 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
   // The key of the study in every table: the file's name, unless it needs letters that a file had better not.
   study.name = root.text("name", file.stem().string());
   if (!reports::is_plain_name(study.name))
-    throw ConfigError(
-        file.string() +
-        ": a study is named after its file, or by name = \"...\": letters, digits and . _ = - only");
+    throw ConfigError(file.string() +
+                      ": a study is named after its file, or by name = \"...\": letters, digits and . _ = - "
+                      "only, no dot or dash first");
   study.topic = root.text("topic", topic);
   study.title = root.text("title");
   study.claim = root.text("claim");

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <csignal>
 
+#include "reference/interruption.hpp"
+
 namespace verification {
 namespace {
 
@@ -20,6 +22,7 @@ extern "C" void note_signal(int signal) {
 
 InterruptionGuard::InterruptionGuard() {
   received = 0;
+  reference::on_every_step(throw_if_interrupted);
   struct sigaction action {};
   action.sa_handler = note_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
@@ -31,6 +34,7 @@ InterruptionGuard::InterruptionGuard() {
 }
 
 InterruptionGuard::~InterruptionGuard() {
+  reference::on_every_step(nullptr);
   for (int i = 0; i < 2; ++i) sigaction(signals[i], &before[i], nullptr);
 }
 

@@ -12,7 +12,8 @@ struct Interrupted : std::exception {
 };
 
 /// While one is alive, the first SIGINT or SIGTERM only makes throw_if_interrupted() throw; a second one ends
-/// the program at once. SIGINT that was ignored (nohup, a background job of a script) stays ignored.
+/// the program at once. Integrations of references ask, too. SIGINT that was ignored (nohup, a background job
+/// of a script) stays ignored.
 class InterruptionGuard {
  public:
   InterruptionGuard();

@@ -1,8 +1,11 @@
 #include "verification/scene/scene_config.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "solver/step/stable_step.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/scene/scene_cost.hpp"
 
 namespace verification {
 namespace {
@@ -79,7 +82,9 @@ std::vector<double> read_outputs(TomlTable& table) {
   return outputs;
 }
 
-mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme, const mpm::Scene& scene) {
+mpm::TimeStepRule read_time_step(TomlTable& table, const SceneConfig& config) {
+  const mpm::Scheme& scheme = config.scheme;
+  const mpm::Scene& scene = config.scene;
   mpm::TimeStepRule rule;
   if (table.has("dt")) {
     rule.dt = table.positive("dt");
@@ -96,6 +101,12 @@ mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme, co
     rule = mpm::automatic_time_step(scheme, scene);
   } catch (const mpm::SceneError& error) {
     table.fail("dt", error.what());
+  }
+  if (std::isinf(mpm::stable_step(scheme, mpm::fewest_particles_per_cell(scene)).viscous)) {
+    // Implicit viscosity: the explicit limit at the largest viscosity, which a power law has at its
+    // shear-rate floor, says nothing. Accuracy does.
+    const double h = scene.smallest_cell_size();
+    rule.cfl_viscous = accurate_implicit_step(config) * scene.fluid.largest_kinematic_viscosity() / (h * h);
   }
   rule.cfl_acoustic = table.positive("cfl_acoustic", rule.cfl_acoustic);
   rule.cfl_viscous = table.positive("cfl_viscous", rule.cfl_viscous);
@@ -118,6 +129,7 @@ std::vector<double> SceneConfig::reference_times() const {
   return times;
 }
 
+/// No overflow: require_memory() has refused what would.
 long SceneConfig::particles() const {
   return static_cast<long>(scene.cells[0]) * scene.cells[1] * scene.particles_per_cell[0] *
          scene.particles_per_cell[1];
@@ -166,10 +178,11 @@ SceneConfig read_scene_config(TomlTable root) {
   } catch (const mpm::SceneError& error) {
     root.fail("scene", error.what());
   }
+  require_memory(root, config);
   if (config.start > 0 && config.scene.initial_density &&
       !config.flow->exact({config.start})->density(Vec2::Zero(), config.start))
     time.fail("start", "is for flows whose density is known at any time: this one starts at t = 0 only");
-  config.time_step = read_time_step(time, config.scheme, config.scene);
+  config.time_step = read_time_step(time, config);
   time.refuse_unknown_keys();
   root.refuse_unknown_keys();
   try {
@@ -177,6 +190,7 @@ SceneConfig read_scene_config(TomlTable root) {
   } catch (const mpm::SceneError& error) {
     root.fail(config.time_step.dt > 0 ? "time.dt" : "scene", error.what());
   }
+  require_steps(root, config);
   return config;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <system_error>
 #include <vector>
@@ -46,12 +47,13 @@ struct Entry {
   std::uintmax_t bytes;
 };
 
-/// Files of a directory, oldest first.
+/// Our own files in a directory, oldest first.
 std::vector<Entry> files_in(const fs::path& directory) {
   std::vector<Entry> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory, error)) {
     std::error_code gone;
+    if (entry.path().extension() != ".run" || !reports::is_entry(entry.path(), format)) continue;  // not ours
     const auto bytes = entry.file_size(gone);
     const auto used = entry.last_write_time(gone);
     if (!gone) files.push_back({entry.path(), used, bytes});
@@ -88,7 +90,7 @@ std::optional<std::string> RunCache::load(const std::string& content) const {
   const std::string key = key_of(content);
   std::string bytes;
   try {
-    bytes = reports::read_file(file_of(key));
+    bytes = reports::read_entry(file_of(key));
   } catch (const reports::IoError&) {
     return std::nullopt;
   }
@@ -114,8 +116,8 @@ void RunCache::save(const std::string& content, const std::string& bytes) {
   try {
     reports::write_file(file_of(key), key + bytes + checksum_of(bytes), reports::Durability::Unsynced);
     ++saved_;
-  } catch (const reports::IoError&) {
-    ++lost_;
+  } catch (const reports::IoError& error) {
+    if (lost_++ == 0) cause_ = error.error;
   }
 }
 
@@ -124,11 +126,14 @@ void RunCache::save(const Study& study, const RunData& data) {
 }
 
 std::string RunCache::warning() const {
-  return lost_ == 0 ? ""
-                    : fmt::format(
-                          "{} finished runs could not be kept in {}: free some space there or set "
-                          "MPM_CACHE; the results are complete, only not remembered",
-                          lost_.load(), runs_.string());
+  return lost_ == 0
+             ? ""
+             : fmt::format(
+                   "{} finished runs could not be kept in {} ({}): {}set MPM_CACHE to another directory; the "
+                   "results are complete, only not remembered",
+                   lost_.load(), runs_.string(), cause_ ? std::strerror(cause_) : "unknown cause",
+                   cause_ == ENOSPC || cause_ == EDQUOT || cause_ == EFBIG ? "free some space there, or "
+                                                                           : "");
 }
 
 void RunCache::prune(std::uintmax_t limit) const {
@@ -143,8 +148,10 @@ void RunCache::prune(std::uintmax_t limit) const {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(runs_, error)) {
     std::error_code gone;
+    if (entry.is_symlink(gone) || !entry.is_directory(gone)) continue;
     Build build{entry.path(), entry.last_write_time(gone), 0};
     for (const Entry& file : files_in(entry.path())) build.bytes += file.bytes;
+    if (build.bytes == 0) continue;  // nothing of ours in it
     total += build.bytes;
     if (entry.path() != own_) others.push_back(build);
   }
@@ -152,7 +159,8 @@ void RunCache::prune(std::uintmax_t limit) const {
   for (const Build& build : others) {
     if (total <= limit) return;
     std::error_code gone;
-    fs::remove_all(build.path, gone);
+    for (const Entry& file : files_in(build.path)) fs::remove(file.path, gone);
+    fs::remove(build.path, gone);  // which fails, as it should, when something of somebody else's is left
     total -= build.bytes;
   }
   for (const Entry& file : files_in(own_)) {

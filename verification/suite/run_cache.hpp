@@ -39,7 +39,8 @@ class RunCache {
   /// One line on what could not be kept and why; "" if all is well.
   [[nodiscard]] std::string warning() const;
   /// Deletes what other builds left, least recently used first, until all builds together hold at most
-  /// `limit` bytes; then, if need be, the oldest of our own. Does nothing if nothing was saved.
+  /// `limit` bytes; then, if need be, the oldest of our own. Touches only files that we wrote (by their
+  /// ending and first line). Does nothing if nothing was saved.
   void prune(std::uintmax_t limit = default_limit) const;
 
   static constexpr std::uintmax_t default_limit = 1u << 30;
@@ -53,6 +54,7 @@ class RunCache {
   CacheUse use_;
   std::filesystem::path runs_, own_;  // <cache>/runs and <cache>/runs/<build>
   std::atomic<long> saved_{0}, lost_{0};
+  std::atomic<int> cause_{0};  // errno of the first that was lost
 };
 
 }  // namespace verification

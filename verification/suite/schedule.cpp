@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "verification/runs/run_simulation.hpp"
@@ -60,7 +61,11 @@ std::exception_ptr perform_all(const std::vector<Job>& jobs, int threads,
   };
   {
     std::vector<std::jthread> pool;
-    for (int i = 1; i < threads; ++i) pool.emplace_back(work);
+    try {
+      for (int i = 1; i < threads; ++i) pool.emplace_back(work);
+    } catch (const std::system_error&) {
+      // A limit on processes: those that there are share out the work.
+    }
     work();
   }
   return cause;
