@@ -90,6 +90,40 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::Range(0.0, 1.0));
   compare_app->add_flag("--all", compare.all, "List every change, not the first 20 of each file");
 
+  ValidateOptions validate;
+  auto* validate_app = app.add_subcommand("validate",
+                                          "Compare a run with a table of measurements: E = S - D with the "
+                                          "three parts of its uncertainty, verdicts, "
+                                          "joint distance. Exit code 1 for a model error that is not borne, "
+                                          "and for a comparison that noise leaves open");
+  validate_app->add_option("DATA", validate.data, "Table of measurements (CSV)")->required();
+  validate_app->add_option("--result", validate.result, "Directory of results, or one with a profile.csv")
+      ->required();
+  validate_app->add_option("--run", validate.runs, "Runs of one ladder in that directory, coarse to fine");
+  validate_app
+      ->add_option("--largest-error", validate.largest_error,
+                   "Model error that is borne, in the table's unit")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  validate_app->add_option("--coverage", validate.coverage, "Coverage factor k")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  validate_app->add_option("--order", validate.formal_order, "Formal order of the ladder")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  validate_app->add_option("--velocity", validate.velocity, "Velocity V of a scaled table [m/s]")
+      ->check(CLI::PositiveNumber);
+  validate_app->add_option("--length", validate.length, "Length L of a scaled table [m]")
+      ->check(CLI::PositiveNumber);
+  validate_app
+      ->add_option("--u-num", validate.u_num,
+                   "Standard numerical uncertainty relative to |S|, without a ladder")
+      ->check(CLI::NonNegativeNumber);
+  validate_app->add_option("--u-input", validate.u_input, "Standard uncertainty from inputs relative to |S|")
+      ->check(CLI::NonNegativeNumber);
+  validate_app->add_option("--out", validate.out,
+                           "Directory for tables, figures and a report (default: none)");
+
   SceneOptions scene;
   auto* solve_app = app.add_subcommand("solve", "One simulation of a scene");
   auto* reference_app =
@@ -123,10 +157,11 @@ int dispatch(int argc, char** argv) {
     if (studies.empty()) studies = studies_directory(build_info::studies).string();
     list.studies = run.studies = studies;
   }
-  run.command_line = scene.command_line = joined(argc, argv);
+  run.command_line = scene.command_line = validate.command_line = joined(argc, argv);
   if (*list_app) return list_command(list);
   if (*run_app) return run_command(run);
   if (*compare_app) return compare_command(compare);
+  if (*validate_app) return validate_command(validate);
   if (*report_app) return report_command(report_dir);
   if (*solve_app) return solve_command(scene);
   return reference_command(scene);

@@ -110,6 +110,33 @@ void FigureScript::line_and_points(const Curve& curve, const std::string& colour
            fmt::format("with linespoints lw 1.5 pt {} ps mark_size lc rgb '{}'", mark, colour), legend);
 }
 
+void FigureScript::error_bars(const std::vector<ErrorBar>& bars, const std::string& colour,
+                              const std::string& legend) {
+  Curve values;
+  for (const ErrorBar& bar : bars) {
+    values.emplace_back(bar.x, bar.y);
+    line({{bar.x, bar.y - bar.half_height}, {bar.x, bar.y + bar.half_height}}, colour, "", 1.2);
+  }
+  points(values, colour, 7, legend, 0.7);
+}
+
+void FigureScript::band(const Curve& lower, const Curve& upper, const std::string& colour) {
+  // A polygon: along the upper edge and back along the lower one. One that is not finite has no area.
+  Curve outline = upper;
+  outline.insert(outline.end(), lower.rbegin(), lower.rend());
+  const bool finite = std::all_of(outline.begin(), outline.end(), [](const auto& p) {
+    return std::isfinite(p.first) && std::isfinite(p.second);
+  });
+  if (!finite || lower.size() < 2) return;
+  add_plot(add_data(outline),
+           fmt::format("with filledcurves closed fs transparent solid 0.25 noborder lc rgb '{}'", colour),
+           "");
+}
+
+void FigureScript::boxes(const Curve& tops, const std::string& colour, const std::string& legend) {
+  add_plot(add_data(tops), fmt::format("with boxes fs solid 0.8 noborder lc rgb '{}'", colour), legend);
+}
+
 void FigureScript::legend_line(const std::string& colour, const std::string& legend, double width,
                                const std::string& dash) {
   add_plot("NaN", fmt::format("with lines lw {} dt {} lc rgb '{}'", width, dash, colour), legend);

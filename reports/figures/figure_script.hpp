@@ -9,6 +9,11 @@ namespace reports {
 /// Points of one curve, in the units of the axes.
 using Curve = std::vector<std::pair<double, double>>;
 
+/// A value with a symmetric uncertainty.
+struct ErrorBar {
+  double x, y, half_height;
+};
+
 /// Colours that stay apart for colour-blind readers (Okabe & Ito 2008); counts on from the start when
 /// exhausted.
 const char* curve_colour(std::size_t index);
@@ -45,6 +50,12 @@ class FigureScript {
               double size = 0.8);
   /// Marks joined by a thin line.
   void line_and_points(const Curve& curve, const std::string& colour, int mark, const std::string& legend);
+  /// Points with bars from y - half_height to y + half_height.
+  void error_bars(const std::vector<ErrorBar>& bars, const std::string& colour, const std::string& legend);
+  /// The area between two curves over the same places, pale.
+  void band(const Curve& lower, const Curve& upper, const std::string& colour);
+  /// Bars from zero, as wide as the whole numbers lie apart.
+  void boxes(const Curve& tops, const std::string& colour, const std::string& legend);
   /// A legend entry without data.
   void legend_line(const std::string& colour, const std::string& legend, double width = 2,
                    const std::string& dash = "solid");

@@ -138,10 +138,17 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
     figure = work_precision_figure(record, results);
   } else if (record.kind == "stability-map") {
     figure = stability_figure(record, results);
+  } else if (record.kind == "validation") {
+    figure = validation_figure(record, results);
+  } else if (record.kind == "validation-parts") {
+    figure = validation_parts_figure(record, results);
+  } else if (record.kind == "computed-measured") {
+    figure = computed_measured_figure(record, results);
   } else {
     throw IoError(
         fmt::format("figures.csv: figure '{}' is of unknown kind '{}'; known are profiles, history, "
-                    "energy, convergence, work-precision, shear-rate, viscosity, pressure, stability-map",
+                    "energy, convergence, work-precision, shear-rate, viscosity, pressure, stability-map, "
+                    "validation, validation-parts, computed-measured",
                     record.figure, record.kind));
   }
   figure.name = record.figure;

@@ -37,6 +37,13 @@ Figure work_precision_figure(const FigureRecord& record, const Results& results)
 /// Stable regions in the plane of r = nu dt/h^2 and c dt/h: predicted boundaries, measured points.
 Figure stability_figure(const FigureRecord& record, const Results& results);
 
+/// Kind "validation": measured values with error bars, simulated ones with their band.
+Figure validation_figure(const FigureRecord& record, const Results& results);
+/// Kind "validation-parts": the three parts of u_val^2 of every point, as bars.
+Figure validation_parts_figure(const FigureRecord& record, const Results& results);
+/// Kind "computed-measured": one quantity over all studies, with bias and scatter.
+Figure computed_measured_figure(const FigureRecord& record, const Results& results);
+
 // What the kinds share.
 
 /// The parts of a list joined by ';'; none for "".

@@ -96,14 +96,14 @@ void write_csv(const std::filesystem::path& path, const std::tuple<Column<Record
   write_file(path, csv_text(columns, records), durability);
 }
 
-/// Read every record of a file. Columns may come in any order and there may be more of them.
+/// Read every record of a loaded text, perhaps cut, of the file `path`. Columns may come in any order and
+/// there may be more of them.
 /// @throws IoError naming file, line and column: file or column missing, a field too many or too few, no
 /// number.
 template <class Record, class... T>
-std::vector<Record> read_csv(const std::filesystem::path& path,
+std::vector<Record> read_csv(const csv::Text& text, const std::filesystem::path& path,
                              const std::tuple<Column<Record, T>...>& columns) {
   constexpr std::size_t count = sizeof...(T);
-  const csv::Text text = csv::load(path);
   const char* begin = text.content.data();
   io::CSVReader<count, io::trim_chars<' ', '\t', '\r'>, io::double_quote_escape<',', '"'>,
                 io::throw_on_overflow, io::empty_line_comment>
@@ -143,6 +143,13 @@ std::vector<Record> read_csv(const std::filesystem::path& path,
     csv::fail(path, line(), e.what());
   }
   return records;
+}
+
+/// The same of a file.
+template <class Record, class... T>
+std::vector<Record> read_csv(const std::filesystem::path& path,
+                             const std::tuple<Column<Record, T>...>& columns) {
+  return read_csv(csv::load(path), path, columns);
 }
 
 }  // namespace reports

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/records/validation.hpp"
+
 // The rows of every result file. Whoever writes these (our driver or somebody else's) can have a report made
 // of them: reports/ reads nothing else. SI units; a quantity that does not exist is NaN, a word that does not
 // is "".
@@ -233,7 +235,7 @@ struct FigureRecord {
   std::string figure;  ///< file stem, unique
   std::string study;
   /// "profiles", "history", "energy", "convergence", "work-precision", "shear-rate", "viscosity", "pressure",
-  /// "stability-map"
+  /// "stability-map", "validation", "validation-parts", "computed-measured"
   std::string kind;
   std::string title;  ///< the claim that the figure shows
   /// Runs to draw (profiles, history, work-precision); "" = all of the study. stability-map: schemes, as
@@ -264,6 +266,9 @@ struct Results {
   std::vector<MatrixRecord> matrix;
   std::vector<ScoreRecord> scores;
   std::vector<StabilityRecord> stability;
+  std::vector<ValidationRecord> validation;
+  std::vector<JointValidationRecord> joint_validation;
+  std::vector<ValidationBiasRecord> validation_bias;
 };
 
 }  // namespace reports

@@ -6,6 +6,7 @@
 
 #include "reports/files/csv.hpp"
 #include "reports/files/io_error.hpp"
+#include "reports/records/validation_files.hpp"
 
 namespace reports {
 namespace {
@@ -280,6 +281,7 @@ Results read_results(const std::filesystem::path& dir) {
   results.matrix = read_csv(dir / "matrix.csv", matrix_columns);
   results.scores = read_csv(dir / "scoreboard.csv", score_columns);
   results.stability = read_csv(dir / "stability.csv", stability_columns);
+  read_validation(dir, results);
   require_plain_names(results);
   return results;
 }
@@ -318,15 +320,18 @@ void write_results(const std::filesystem::path& dir, const Results& results, Dur
   write_csv(dir / "matrix.csv", matrix_columns, results.matrix, durability);
   write_csv(dir / "scoreboard.csv", score_columns, results.scores, durability);
   write_csv(dir / "stability.csv", stability_columns, results.stability, durability);
+  write_validation(dir, results, durability);
 }
 
 void remove_tables(const std::filesystem::path& dir) {
   std::error_code ignored;
   // checks.csv goes first: without it nobody takes what is left for a result.
-  for (const char* name : {"checks.csv",  "report.html", "report.pdf",   "report.md",      "summary.md",
-                           "junit.xml",   "studies.csv", "chapters.csv", "headlines.csv",  "changes.csv",
-                           "runs.csv",    "errors.csv",  "levels.csv",   "orders.csv",     "timing.csv",
-                           "figures.csv", "claims.csv",  "matrix.csv",   "scoreboard.csv", "stability.csv"})
+  for (const char* name :
+       {"checks.csv",     "report.html",          "report.pdf",         "report.md",      "summary.md",
+        "junit.xml",      "studies.csv",          "chapters.csv",       "headlines.csv",  "changes.csv",
+        "runs.csv",       "errors.csv",           "levels.csv",         "orders.csv",     "timing.csv",
+        "figures.csv",    "claims.csv",           "matrix.csv",         "scoreboard.csv", "stability.csv",
+        "validation.csv", "validation-joint.csv", "validation-bias.csv"})
     std::filesystem::remove(dir / name, ignored);
   for (const char* part : {".", "profiles", "scenes", "figures"})
     if (!std::filesystem::is_symlink(dir / part, ignored))

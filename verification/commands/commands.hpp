@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,19 @@ struct CompareOptions {
 };
 /// 0: nothing got worse beyond noise; 1: something did.
 int compare_command(const CompareOptions& options);
+
+struct ValidateOptions {
+  std::filesystem::path data, result, out;
+  std::vector<std::string> runs;  ///< of a result directory, coarse to fine; empty: profile.csv
+  double largest_error = 0;       ///< model error that is borne, in the unit of the table
+  double coverage = 2, velocity = 0, length = 0, formal_order = 2;
+  /// Standard uncertainties relative to |S|; NaN: from the ladder.
+  double u_num = std::numeric_limits<double>::quiet_NaN();
+  double u_input = std::numeric_limits<double>::quiet_NaN();
+  std::string command_line;
+};
+/// 0: every value is borne; 1: a model error that is not, or an inconclusive comparison.
+int validate_command(const ValidateOptions& options);
 
 int report_command(const std::filesystem::path& dir);
 

@@ -12,7 +12,9 @@
 #include "verification/reading/figure_reader.hpp"
 #include "verification/reading/scoreboard_reader.hpp"
 #include "verification/reading/solver_reader.hpp"
+#include "verification/reading/validation_reader.hpp"
 #include "verification/runs/scheme_matrix.hpp"
+#include "verification/runs/validate.hpp"
 #include "verification/scene/matrix.hpp"
 
 namespace verification {
@@ -113,6 +115,21 @@ void require_whole_steps(const TomlTable& table, const SceneConfig& scene, doubl
   }
 }
 
+/// Runs that vary the inputs, on the coarsest level: a difference needs no fine grid.
+void plan_input_runs(Study& study, const TomlTable& scene, const Ladder& ladder, const std::string& variant) {
+  const std::vector<std::string> names = input_variants(*study.validation, variant);
+  const std::vector<TomlTable> scenes = input_scenes(*study.validation, scene);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    PlannedRun planned;
+    std::string tag;
+    planned.scene = read_scene_config(at_level(scenes[i], ladder, 0, tag));
+    planned.variant = names[i];
+    planned.step = planned.scene.cell_size();
+    planned.run = study.name + "." + names[i];
+    study.runs.push_back(std::move(planned));
+  }
+}
+
 void plan_runs(Study& study, const TomlTable& scene, const std::string& variant) {
   const Ladder ladder = ladder_for(study, scene);
   const std::size_t levels = ladder.axis == Axis::Space  ? ladder.cells.size()
@@ -134,6 +151,7 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
     planned.run = study.name + (variant.empty() ? "" : "." + variant) + (tag.empty() ? "" : "." + tag);
     study.runs.push_back(std::move(planned));
   }
+  if (study.validation && study.validation->compares(variant)) plan_input_runs(study, scene, ladder, variant);
 }
 
 /// A study of limits has schemes, and boxes of its own instead of a scene.
@@ -278,17 +296,20 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
     read_limits(study, root);
   } else {
     for (const std::string& key : scene_tables()) root.accept(key);
+    if (root.has("validation")) study.validation = read_validation(root.table("validation"), file, study);
     read_variants(study, root, root.restricted_to(scene_tables()));
+    if (study.validation) require_places(study);
     require_comparable(root, study);
     read_scoreboard(root, study);
   }
   for (TomlTable& table : root.tables("check")) study.checks.push_back(read_check(table, study));
-  if (study.checks.empty())
+  if (study.checks.empty() && !study.validation)
     root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");
   read_declared_checks(root, study);
   for (TomlTable& table : root.tables("statement")) study.claims.push_back(read_claim(table));
   require_evidence(root, study);
   for (TomlTable& table : root.tables("figure")) study.figures.push_back(read_figure(table, study));
+  if (study.validation) add_validation_figures(study, study.validation->rules);
   if (!study.figures.empty() && study.scoreboard &&
       !(study.scoreboard->in_full.empty() && study.scoreboard->in_quick.empty()))
     root.fail("figure",

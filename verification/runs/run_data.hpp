@@ -42,6 +42,8 @@ struct StudyData {
   std::vector<reports::ClaimRecord> claims;
   std::vector<reports::MatrixRecord> matrix;
   std::vector<reports::ScoreRecord> scores;
+  std::vector<reports::ValidationRecord> validation;
+  std::vector<reports::JointValidationRecord> joint_validation;
   std::vector<reports::StabilityRecord> stability;       ///< in the order of study->stability.cases
   std::vector<reports::TimingRecord> stability_timings;  ///< one a case
 

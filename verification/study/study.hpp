@@ -11,6 +11,7 @@
 #include "verification/stability/stability_plan.hpp"
 #include "verification/study/foreign_solver.hpp"
 #include "verification/study/scoreboard.hpp"
+#include "verification/study/validation.hpp"
 
 namespace verification {
 
@@ -105,7 +106,8 @@ struct Study {
   std::optional<std::size_t> declared_checks;
   std::vector<ClaimSpec> claims;
   std::vector<reports::FigureRecord> figures;
-  std::optional<Scoreboard> scoreboard;  ///< of a hard case
+  std::optional<Scoreboard> scoreboard;      ///< of a hard case
+  std::optional<ValidationSpec> validation;  ///< measurements that its runs are compared with
 
   [[nodiscard]] double particle_steps() const;
   /// Runs of one variant, coarse to fine.

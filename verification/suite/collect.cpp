@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "verification/runs/validate.hpp"
+
 namespace verification {
 namespace {
 
@@ -59,11 +61,15 @@ reports::Results collect(const std::vector<const StudyData*>& studies) {
     append(results.matrix, data->matrix);
     append(results.scores, data->scores);
     append(results.stability, data->stability);
+    append(results.validation, data->validation);
+    append(results.joint_validation, data->joint_validation);
     append(results.timings, data->stability_timings);
     append(results.figures, study.figures);
   }
   for (const auto& [place, chapter] : chapters) results.chapters.push_back(chapter);
   for (const auto& [place, headline] : headlines) results.headlines.push_back(headline);
+  results.validation_bias = validation_bias(results.validation);
+  append(results.figures, computed_measured_figures(results.validation_bias));
   std::ranges::stable_sort(results.claims, {}, place_in_paper);
   return results;
 }

@@ -13,7 +13,9 @@ KeptProfiles::KeptProfiles(const std::vector<Study>& studies, std::filesystem::p
   for (const Study& study : studies)
     for (const reports::FigureRecord& figure : study.figures) {
       // Drawn from the tables alone.
-      if (figure.kind == "convergence" || figure.kind == "work-precision" || figure.kind == "stability-map")
+      if (figure.kind == "convergence" || figure.kind == "work-precision" || figure.kind == "stability-map" ||
+          figure.kind == "validation" || figure.kind == "validation-parts" ||
+          figure.kind == "computed-measured")
         continue;
       std::vector<std::string> runs = reports::split_list(figure.runs);
       if (runs.empty())

@@ -16,6 +16,7 @@
 #include "verification/runs/run_simulation.hpp"
 #include "verification/runs/scheme_matrix.hpp"
 #include "verification/runs/scores.hpp"
+#include "verification/runs/validate.hpp"
 #include "verification/suite/collect.hpp"
 #include "verification/suite/run_entry.hpp"
 #include "verification/suite/schedule.hpp"
@@ -199,6 +200,7 @@ class SuiteRunner {
     evaluate_checks(data);
     data.matrix = matrix_records(data);
     data.scores = score_records(data);
+    validate(data);
     const bool failed =
         std::ranges::any_of(data.checks, [](const auto& check) { return check.verdict != "pass"; });
     for (RunData& run : data.runs) {

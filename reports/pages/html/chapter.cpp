@@ -9,6 +9,7 @@
 #include "reports/pages/html_page.hpp"
 #include "reports/pages/html_scoreboard.hpp"
 #include "reports/pages/html_stability.hpp"
+#include "reports/pages/html_validation.hpp"
 #include "reports/records/scoreboard.hpp"
 #include "reports/records/work_precision.hpp"
 
@@ -118,6 +119,7 @@ std::string html_chapter(const ReportData& data, const Chapter& chapter, PageFig
   if (!chapter.figure.empty()) text += figures.shown(chapter.figure);
   text += html_claims(results, chapter);
   text += study_table(data, chapter);
+  text += html_validation(results, chapter, figures);
   text += html_scoreboard(those_of(results.scores, chapter));
   text += html_matrix(matrix_of(results, chapter));
   text += html_cheapest(costs_of(results, chapter));
