@@ -4,11 +4,13 @@
 BUILD   ?= build
 RESULTS ?= results
 PROGRAM  = $(BUILD)/verification/mpm-verify
+# A reviewer signs paper: printed where a browser is there.
+PDF     := $(if $(shell command -v chromium || command -v chromium-browser || command -v google-chrome),--pdf)
 
-.PHONY: verify verify-quick verify-deep test bench program packages configure clean
+.PHONY: verify verify-quick verify-deep test bench package program packages configure clean
 
 verify: program
-	$(PROGRAM) run --suite full --out $(RESULTS)
+	$(PROGRAM) run --suite full --out $(RESULTS) $(PDF)
 
 verify-quick: program
 	$(PROGRAM) run --suite quick --out $(RESULTS)-quick
@@ -23,6 +25,9 @@ test: configure
 bench: configure
 	cmake --build $(BUILD) --target mpm-bench
 	$(BUILD)/tests/mpm-bench $(RESULTS)-bench
+
+package: program
+	cmake --build $(BUILD) --target package
 
 program: configure
 	cmake --build $(BUILD) --target mpm-verify

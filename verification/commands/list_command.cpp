@@ -8,8 +8,11 @@ namespace verification {
 
 int list_command(const ListOptions& options) {
   const Suite suite = suite_named(options.suite);
-  // What one core of a present machine does with the solver's plain loops; an estimate, and said to be one.
-  constexpr double particle_steps_per_second = 20e6;
+  if (options.names) {
+    for (Study& study : read_studies(options.studies))
+      if (restrict_to(study, suite)) fmt::print("{}\n", study.name);
+    return 0;
+  }
   fmt::print("{:<30} {:<6} {:>5} {:>16} {:>8}  {}\n", "study", "suite", "runs", "particle-steps", "about",
              "claim");
   double total = 0;
