@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,11 +44,11 @@ void print_scene(const Study& study) {
   const PlannedRun& run = study.runs.front();
   const SceneConfig& scene = run.scene;
   fmt::print("flow        {}, {}\n", scene.flow_name, scene.fluid.label);
-  if (study.solver_command.empty())
+  if (!study.solver)
     fmt::print("scheme      {}, {}, {}{}\n", mpm::name(scene.scheme.basis), mpm::name(scene.scheme.transfer),
                mpm::name(scene.scheme.stepping), study.variants.size() > 1 ? " (first variant)" : "");
   else
-    fmt::print("solver      {}: {}\n", study.solver_name, study.solver_command);
+    fmt::print("solver      {}: {}\n", study.solver->name, fmt::join(study.solver->command, " "));
   fmt::print("until       {:.6g} s, {} output times\n", scene.outputs.back(), scene.outputs.size());
   fmt::print("against     {}\n", compared_with(study));
   if (study.ladder.axis != Axis::None) {
