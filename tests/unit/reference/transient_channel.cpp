@@ -184,7 +184,8 @@ TEST_CASE("transient channel: the cache gives the same bytes back, and nothing t
 
   int files = 0;
   std::filesystem::path stored;
-  for (const auto& entry : std::filesystem::directory_iterator(scratch.path())) stored = entry.path(), ++files;
+  for (const auto& entry : std::filesystem::directory_iterator(scratch.path()))
+    stored = entry.path(), ++files;
   REQUIRE(files == 1);  // no temporary file stays behind
   const auto size = std::filesystem::file_size(stored);
   SECTION("one byte changed") {
