@@ -39,7 +39,14 @@ int dispatch(int argc, char** argv) {
   ListOptions list;
   auto* list_app = app.add_subcommand("list", "Studies, what each claims, and what it costs");
   list_app->add_option("--suite", list.suite, "quick, full or deep (default: all)");
+  list_app->add_flag("--names", list.names, "Names alone, one a line");
   list_app->add_option("--studies", studies, studies_help);
+
+  ExplainOptions explain;
+  auto* explain_app =
+      app.add_subcommand("explain", "What a study runs and checks, why those bounds, and what it costs");
+  explain_app->add_option("STUDY", explain.study, "Name of a study or path of a study file")->required();
+  explain_app->add_option("--studies", studies, studies_help);
 
   RunOptions run;
   auto* run_app = app.add_subcommand("run", "Run studies and judge them");
@@ -63,15 +70,17 @@ int dispatch(int argc, char** argv) {
                     "a directory in "
                     "which none was begun");
 
+  run_app->add_flag("--pdf", run.pdf, "Print report.pdf too, by a browser (chromium, or $MPM_BROWSER)");
   run_app->add_flag(
       "--keep-profiles", run.keep_profiles,
       "Keep the profiles of every run (without: of those that a figure draws, and of studies that "
       "fail)");
 
-  std::string report_dir;
+  ReportCommandOptions report;
   auto* report_app =
       app.add_subcommand("report", "Rebuild figures and reports from the CSV files of a directory");
-  report_app->add_option("DIR", report_dir, "Directory of results")->required();
+  report_app->add_option("DIR", report.dir, "Directory of results")->required();
+  report_app->add_flag("--pdf", report.pdf, "Print report.pdf too, by a browser (chromium, or $MPM_BROWSER)");
 
   CompareOptions compare;
   auto* compare_app = app.add_subcommand(
@@ -153,16 +162,17 @@ int dispatch(int argc, char** argv) {
   }
   mpm::use_threads(threads);
   mpm::use_isa(isa.empty() ? mpm::current_isa() : isa);  // a mistake in the environment shows now
-  if (*list_app || *run_app) {
+  if (*list_app || *run_app || *explain_app) {
     if (studies.empty()) studies = studies_directory(build_info::studies).string();
-    list.studies = run.studies = studies;
+    list.studies = run.studies = explain.studies = studies;
   }
   run.command_line = scene.command_line = validate.command_line = joined(argc, argv);
   if (*list_app) return list_command(list);
+  if (*explain_app) return explain_command(explain);
   if (*run_app) return run_command(run);
   if (*compare_app) return compare_command(compare);
   if (*validate_app) return validate_command(validate);
-  if (*report_app) return report_command(report_dir);
+  if (*report_app) return report_command(report);
   if (*solve_app) return solve_command(scene);
   return reference_command(scene);
 }

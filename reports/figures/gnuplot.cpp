@@ -1,7 +1,6 @@
 #include "reports/figures/gnuplot.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -14,6 +13,7 @@
 #include "reports/figures/for_each_index.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
+#include "reports/files/program.hpp"
 #include "reports/files/utf8.hpp"
 #include "reports/process/child.hpp"
 
@@ -21,26 +21,6 @@ namespace reports {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_executable(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error) && access(path.c_str(), X_OK) == 0;
-}
-
-std::string find_program(const std::string& name) {
-  if (name.find('/') != std::string::npos) {
-    return is_executable(name) ? fs::absolute(name).string() : "";
-  }
-  const char* path = std::getenv("PATH");
-  std::string_view rest = path ? path : "/usr/local/bin:/usr/bin:/bin";
-  while (!rest.empty()) {
-    const std::size_t colon = rest.find(':');
-    const fs::path candidate = fs::path(rest.substr(0, colon)) / name;
-    if (candidate.is_absolute() && is_executable(candidate)) return candidate.string();
-    rest = colon == rest.npos ? "" : rest.substr(colon + 1);
-  }
-  return "";
-}
 
 constexpr double longest_drawing = 60;  // [s] a figure; a second is usual
 
@@ -71,19 +51,6 @@ Outcome run_program(const std::string& program, const fs::path& directory,
 bool holds_exactly(const fs::path& path, const std::string& content) {
   std::error_code error;
   return fs::file_size(path, error) == content.size() && !error && read_file(path) == content;
-}
-
-std::string one_line(std::string_view text) {
-  std::string line;
-  for (const char c : text) {
-    if (c != '\n' && c != '\t' && c != ' ') {
-      line += c;
-    } else if (!line.empty() && line.back() != ' ') {
-      line += ' ';
-    }
-  }
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-  return line.size() > 400 ? line.substr(0, 400) + "..." : line;
 }
 
 /// The two images of a figure. Drawn under a name with ".part" behind it.

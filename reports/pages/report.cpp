@@ -5,6 +5,7 @@
 #include "reports/figures/for_each_index.hpp"
 #include "reports/figures/gnuplot.hpp"
 #include "reports/files/atomic_file.hpp"
+#include "reports/pages/browser.hpp"
 #include "reports/pages/junit.hpp"
 #include "reports/pages/report_html.hpp"
 #include "reports/pages/report_markdown.hpp"
@@ -80,6 +81,10 @@ ReportOutcome write_report(const std::filesystem::path& dir, const FigureOptions
   write_file(dir / "summary.md", markdown_summary(data));
   write_file(dir / "report.html", html_report(dir, data));
   write_file(dir / "junit.xml", junit_report(data.results));
+  if (options.pdf) {
+    const std::string problem = print_report(dir, html_report(dir, data, Medium::Paper));
+    if (!problem.empty()) data.warnings.push_back(problem);
+  }
 
   ReportOutcome outcome;
   outcome.checks_failed = failures(data.results).size();

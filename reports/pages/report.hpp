@@ -18,16 +18,17 @@ struct FigureOptions {
   /// Drawn figures are kept here by the content of their script and by the gnuplot that drew them, and taken
   /// from here instead of being drawn again; "" for nowhere.
   std::filesystem::path cache = {};
-  int jobs = 1;  ///< gnuplot processes at the same time
+  int jobs = 1;      ///< gnuplot processes at the same time
+  bool pdf = false;  ///< print report.pdf too, where there is a browser
 };
 
 /// Make figures/ of a result directory alone. Returns warnings, one line each. @throws IoError as
 /// write_report().
 std::vector<std::string> write_figures(const std::filesystem::path& dir, const FigureOptions& options = {});
 
-/// Make figures/, report.md, report.html and junit.xml of a result directory from its CSV files and
-/// provenance.json alone. The same files give the same bytes. A missing or failing gnuplot costs the figures
-/// and one warning.
+/// Make figures/, report.html, summary.md, report.md, junit.xml and, if asked, report.pdf of a result
+/// directory from its CSV files and provenance.json alone. The same files give the same bytes. A missing or
+/// failing gnuplot costs the figures and one warning.
 /// @throws IoError if a file is missing or malformed or cannot be written.
 ReportOutcome write_report(const std::filesystem::path& dir, const FigureOptions& options = {});
 

@@ -37,6 +37,10 @@ std::string html_report(const std::filesystem::path& dir, const ReportData& data
   if (medium == Medium::Screen)
     main += "<section>\n<h2 id=\"provenance\">Provenance</h2>\n" + provenance_table(data.provenance) +
             "</section>\n";
+  // Nobody unfolds paper.
+  if (medium == Medium::Paper)
+    for (std::size_t at = 0; (at = main.find("<details>", at)) != std::string::npos;)
+      main.insert(at + 8, " open");
   return html_page(verdict_line(data.results), "<a class=\"skip\" href=\"#main\">Skip to the verdict</a>\n" +
                                                    svg_marks() + "<div class=\"layout\">\n" +
                                                    side_column(data, chapters) + "<main id=\"main\">\n" +

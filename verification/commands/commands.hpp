@@ -12,8 +12,20 @@ namespace verification {
 struct ListOptions {
   std::filesystem::path studies;
   std::string suite = "deep";
+  bool names = false;  ///< nothing but names, for scripts and completion
 };
+/// What one core of a present machine does with the solver's plain loops [particle-steps/s]; estimates of
+/// cost rest on it, and say so.
+inline constexpr double particle_steps_per_second = 20e6;
+
 int list_command(const ListOptions& options);
+
+struct ExplainOptions {
+  std::filesystem::path studies;
+  std::string study;  ///< name, or path of a study file
+};
+/// Prints what a study runs, what it checks and why those bounds, and what it costs.
+int explain_command(const ExplainOptions& options);
 
 struct RunOptions {
   std::filesystem::path studies;
@@ -25,6 +37,7 @@ struct RunOptions {
   bool fresh = false;          ///< run everything, and replace what the cache holds
   bool force = false;          ///< `out` may hold files that are not ours
   bool resume = false;         ///< `out` must hold a suite that was begun
+  bool pdf = false;            ///< print the report too
   bool keep_profiles = false;  ///< of every run, drawn or not
   std::string command_line;
 };
@@ -63,6 +76,10 @@ struct ValidateOptions {
 /// 0: every value is borne; 1: a model error that is not, or an inconclusive comparison.
 int validate_command(const ValidateOptions& options);
 
-int report_command(const std::filesystem::path& dir);
+struct ReportCommandOptions {
+  std::filesystem::path dir;
+  bool pdf = false;  ///< print it too
+};
+int report_command(const ReportCommandOptions& options);
 
 }  // namespace verification

@@ -10,6 +10,11 @@ namespace verification {
 
 int list_command(const ListOptions& options) {
   const Suite suite = suite_named(options.suite);
+  if (options.names) {
+    for (Study& study : read_studies(options.studies))
+      if (restrict_to(study, suite)) say("{}\n", study.name);
+    return 0;
+  }
   say("{:<30} {:<6} {:>5} {:>16} {:>8}  {}\n", "study", "suite", "runs", "particle-steps", "about", "claim");
   double total = 0;
   long runs = 0;

@@ -7,11 +7,12 @@
 
 namespace verification {
 
-int report_command(const std::filesystem::path& dir) {
-  const reports::ReportOutcome outcome = reports::write_report(dir, {cache_directory(), job_count(0)});
+int report_command(const ReportCommandOptions& options) {
+  const reports::ReportOutcome outcome =
+      reports::write_report(options.dir, {cache_directory(), job_count(0), options.pdf});
   for (const std::string& warning : outcome.warnings) warn("warning: {}\n", warning);
   say("{}: {} of {} checks pass; see {}\n", outcome.passed ? "PASS" : "FAIL", outcome.checks_passed,
-      outcome.checks_passed + outcome.checks_failed, (dir / "report.html").string());
+      outcome.checks_passed + outcome.checks_failed, (options.dir / "report.html").string());
   return outcome.passed ? 0 : 1;
 }
 

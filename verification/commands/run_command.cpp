@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
 
 #include "reports/compare/earlier_run.hpp"
 #include "reports/files/atomic_file.hpp"
@@ -65,7 +68,7 @@ void warn_of_steps(const std::vector<Study>& studies) {
     const bool fate_declared = std::ranges::any_of(study.checks, [](const CheckSpec& check) {
       return check.kind == "divergence" || check.kind == "outcome";
     });
-    if (fate_declared || !study.solver_command.empty()) continue;
+    if (fate_declared || study.solver) continue;
     for (const PlannedRun& run : study.runs)
       if (const std::string warning = step_warning(run.scene); !warning.empty()) {
         warn("warning: run {}: {}\n", run.run, warning);
@@ -73,6 +76,37 @@ void warn_of_steps(const std::vector<Study>& studies) {
       }
   }
 }
+
+/// How long a suite has still to go, from what its runs cost and how fast those that ended went.
+class TimeLeft {
+ public:
+  explicit TimeLeft(const std::vector<Study>& studies) {
+    for (const Study& study : studies) {
+      for (const PlannedRun& run : study.runs)
+        cost_[run.run] = run.scene.particle_steps() * (study.repetitions + 1);
+      for (const StabilityCase& one : study.stability.cases)
+        cost_[study.name + "." + one.name()] = study.stability.cost(one);
+    }
+    for (const auto& [run, cost] : cost_) left_ += cost;
+  }
+
+  /// "about 40 s left", after one more run has ended.
+  std::string after(const std::string& run) {
+    const auto found = cost_.find(run);
+    const double cost = found == cost_.end() ? 0 : found->second;
+    done_ += cost;
+    left_ = std::max(0.0, left_ - cost);
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    const double seconds = done_ > 0 ? elapsed * left_ / done_ : 0;
+    if (seconds >= 90) return fmt::format("about {:.0f} min left", seconds / 60);
+    return fmt::format("about {:.0f} s left", std::ceil(seconds));
+  }
+
+ private:
+  std::map<std::string, double> cost_;  // particle-steps
+  double done_ = 0, left_ = 0;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
 
 /// A suite can go on where it stopped if it was begun there and if finished runs are kept at all.
 void require_begun(const RunOptions& options, const RunCache& cache) {
@@ -103,8 +137,8 @@ int run_command(const RunOptions& options) {
   SuiteListener listener;
   const bool progress = show_progress(), colour = use_colour();
   if (progress)
-    listener.run_ended = [](long done, long total, const std::string& run) {
-      warn("\r\033[K[{}/{} runs] {}", done, total, run);
+    listener.run_ended = [left = TimeLeft(studies)](long done, long total, const std::string& run) mutable {
+      warn("\r\033[K[{}/{} runs, {}] {}", done, total, left.after(run), run);
       if (done == total) warn("\r\033[K");
     };
   listener.study_ended = [&](const StudyData& data) {
@@ -129,7 +163,7 @@ int run_command(const RunOptions& options) {
   }
   cache.prune();
   earlier.write_changes();
-  const reports::ReportOutcome report = reports::write_report(options.out, {kept, jobs});
+  const reports::ReportOutcome report = reports::write_report(options.out, {kept, jobs, options.pdf});
 
   const auto lines = reports::without_expected_outcomes(outcome.results);
   say("\n{}", reports::console_table(lines, colour, outcome.results.checks.size() - lines.size()));

@@ -14,6 +14,7 @@
 #include "reference/transient/shear_integration.hpp"
 #include "reference/transient/transient_cache.hpp"
 #include "tests/catch.hpp"
+#include "tests/scratch_directory.hpp"
 
 using namespace reference;
 
@@ -39,17 +40,6 @@ Gap gap(const A& a, const B& b, double t, double from = 0.0, double to = kHeight
   }
   return g;
 }
-
-/// A directory of this test's own, removed with all it holds.
-struct Scratch {
-  Scratch()
-      : path(std::filesystem::temp_directory_path() /
-             ("mpm-verify-" + std::to_string(std::rand()) + "-cache")) {
-    std::filesystem::remove_all(path);
-  }
-  ~Scratch() { std::filesystem::remove_all(path); }
-  std::filesystem::path path;
-};
 
 }  // namespace
 
@@ -182,9 +172,9 @@ TEST_CASE("transient channel: a combined flow states an error that a finer compu
 }
 
 TEST_CASE("transient channel: the cache gives the same bytes back, and nothing that is damaged") {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   const ChannelProblem thickening = problem(PowerLawCurve{1e-6, 1.4}, 0.0, kPlate, {0.05, 0.2});
-  const TransientChannel first(thickening, scratch.path), second(thickening, scratch.path);
+  const TransientChannel first(thickening, scratch.path()), second(thickening, scratch.path());
   CHECK_FALSE(first.from_cache());
   CHECK(second.from_cache());
   CHECK(second.stated_error() == first.stated_error());
@@ -194,7 +184,8 @@ TEST_CASE("transient channel: the cache gives the same bytes back, and nothing t
 
   int files = 0;
   std::filesystem::path stored;
-  for (const auto& entry : std::filesystem::directory_iterator(scratch.path)) stored = entry.path(), ++files;
+  for (const auto& entry : std::filesystem::directory_iterator(scratch.path()))
+    stored = entry.path(), ++files;
   REQUIRE(files == 1);  // no temporary file stays behind
   const auto size = std::filesystem::file_size(stored);
   SECTION("one byte changed") {
@@ -213,14 +204,14 @@ TEST_CASE("transient channel: the cache gives the same bytes back, and nothing t
   SECTION("another problem's") {
     std::ofstream(stored, std::ios::binary) << "mpm-verify transient reference, format 3\nsomething else\n";
   }
-  const TransientChannel third(thickening, scratch.path);
+  const TransientChannel third(thickening, scratch.path());
   CHECK_FALSE(third.from_cache());
   CHECK(third.velocity(0.3e-3, 0.2) == first.velocity(0.3e-3, 0.2));
-  CHECK(TransientChannel(thickening, scratch.path).from_cache());
+  CHECK(TransientChannel(thickening, scratch.path()).from_cache());
 }
 
 TEST_CASE("transient channel: a shorter problem reads the same numbers off a longer one's history") {
-  const Scratch scratch;
+  const ScratchDirectory scratch;
   for (const double force : {0.0, kForce}) {  // from a landed front, and from rest
     const FlowCurve curve =
         force == 0.0 ? FlowCurve(PowerLawCurve{1e-6, 1.4}) : FlowCurve(CrossCurve{1e-6, 4e-6, 1.0, 1.0});
@@ -228,8 +219,8 @@ TEST_CASE("transient channel: a shorter problem reads the same numbers off a lon
     const ChannelProblem brief = problem(curve, force, plate, {0.02, 0.1});
     const ChannelProblem longer = problem(curve, force, plate, {0.05, 0.4});
     const TransientChannel alone(brief);
-    CHECK_FALSE(TransientChannel(longer, scratch.path).from_cache());
-    const TransientChannel shared(brief, scratch.path);
+    CHECK_FALSE(TransientChannel(longer, scratch.path()).from_cache());
+    const TransientChannel shared(brief, scratch.path());
     CHECK(shared.from_cache());
     CHECK(shared.stated_error() == alone.stated_error());
     CHECK(shared.stated_gradient_error() == alone.stated_gradient_error());
@@ -238,8 +229,8 @@ TEST_CASE("transient channel: a shorter problem reads the same numbers off a lon
       CHECK(g.velocity == 0.0);
       CHECK(g.gradient == 0.0);
     }
-    CHECK_FALSE(TransientChannel(problem(curve, force, plate, {0.02, 0.5}), scratch.path).from_cache());
-    CHECK_FALSE(TransientChannel(problem(curve, force, plate, {0.002, 0.1}), scratch.path).from_cache());
+    CHECK_FALSE(TransientChannel(problem(curve, force, plate, {0.02, 0.5}), scratch.path()).from_cache());
+    CHECK_FALSE(TransientChannel(problem(curve, force, plate, {0.002, 0.1}), scratch.path()).from_cache());
   }
 }
 
@@ -253,11 +244,11 @@ TEST_CASE("transient channel: degree 12 where the flow curve is nearly kinked, 8
 }
 
 TEST_CASE("transient channel: a cache that cannot be written costs nothing but time") {
-  const Scratch scratch;
-  std::ofstream(scratch.path) << "a file where the directory should be";
+  const ScratchDirectory scratch;
+  std::ofstream(scratch.path()) << "a file where the directory should be";
   const ChannelProblem thickening = problem(PowerLawCurve{1e-6, 1.4}, 0.0, kPlate, {0.05});
-  CHECK(TransientChannel(thickening, scratch.path).velocity(0.9e-3, 0.05) > 0.0);
-  std::filesystem::remove(scratch.path);
+  CHECK(TransientChannel(thickening, scratch.path()).velocity(0.9e-3, 0.05) > 0.0);
+  std::filesystem::remove(scratch.path());
 }
 
 TEST_CASE("channel factory: exact where it can be, else a transient") {

@@ -1,0 +1,26 @@
+# Completion of mpm-verify for bash: verbs, options of each verb, studies by name.
+_mpm_verify() {
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} verb=${COMP_WORDS[1]}
+  local verbs="list explain run compare report solve reference"
+  COMPREPLY=()
+  case $before in
+    --suite) mapfile -t COMPREPLY < <(compgen -W "quick full deep" -- "$word"); return ;;
+    --isa) mapfile -t COMPREPLY < <(compgen -W "baseline avx2 avx512" -- "$word"); return ;;
+    --out | --studies) mapfile -t COMPREPLY < <(compgen -d -- "$word"); return ;;
+  esac
+  if [ "$COMP_CWORD" -eq 1 ]; then
+    mapfile -t COMPREPLY < <(compgen -W "$verbs --help --version" -- "$word")
+    return
+  fi
+  if [[ $word == -* ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "$("$1" "$verb" --help 2> /dev/null | grep -oE -- '--[a-z][a-z-]+')" -- "$word")
+    return
+  fi
+  case $verb in
+    run | explain)
+      mapfile -t COMPREPLY < <(compgen -W "$("$1" list --names 2> /dev/null)" -- "$word"; compgen -f -X '!*.toml' -- "$word") ;;
+    report | compare) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
+    solve | reference) mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word") ;;
+  esac
+}
+complete -o filenames -F _mpm_verify mpm-verify
