@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "reports/records/result_files.hpp"
 #include "verification/checks/check_reader.hpp"
@@ -109,6 +110,13 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
     PlannedRun planned;
     std::string tag;
     planned.scene = read_scene_config(at_level(scene, ladder, static_cast<int>(level), tag));
+    if (ladder.axis == Axis::Time)
+      for (const mpm::Segment& segment : planned.scene.segments)
+        if (std::abs(segment.dt / ladder.dt[level] - 1) > 1e-9)
+          scene.fail("ladder.dt",
+                     fmt::format("holds {} s, which does not divide the time between outputs: {} s "
+                                 "would be taken; choose steps that divide it",
+                                 ladder.dt[level], segment.dt));
     planned.variant = variant;
     planned.theoretical = ladder.theoretical;
     planned.theoretical_particles = ladder.theoretical_particles;
@@ -281,6 +289,19 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
   require_delivered(root, study);
   root.refuse_unknown_keys();
   return study;
+}
+
+void require_distinct_runs(const std::vector<Study>& studies) {
+  std::map<std::string, std::string> owner;
+  for (const Study& study : studies)
+    for (const PlannedRun& run : study.runs) {
+      const auto [found, added] = owner.emplace(run.run, study.name);
+      if (!added)
+        throw ConfigError(
+            fmt::format("studies '{}' and '{}' both have a run named '{}': they would write the same "
+                        "files; rename a study or a variant",
+                        found->second, study.name, run.run));
+    }
 }
 
 }  // namespace verification
