@@ -85,6 +85,16 @@ reports::ClaimRecord judged(const ClaimSpec& claim, const StudyData& data, const
   return record;
 }
 
+/// Where nothing could be judged because a run failed, the reason says which one and why.
+void explain_failures(StudyData& data) {
+  const auto failed = std::ranges::find_if(
+      data.runs, [](const RunData& run) { return run.record.status.starts_with("failed: "); });
+  if (failed == data.runs.end()) return;
+  for (reports::CheckRecord& check : data.checks)
+    if (check.verdict != "pass" && (std::isnan(check.observed) || check.unit == "runs"))
+      check.reason += "; run " + failed->record.run + " " + failed->record.status;
+}
+
 /// A check that was to be made and was not is one that failed.
 void require_number(StudyData& data, std::size_t made, std::optional<std::size_t> expected,
                     const std::string& what) {
@@ -110,6 +120,7 @@ void evaluate_checks(StudyData& data) {
   }
   if (!declares_fate(*data.study) && !data.runs.empty()) data.checks.push_back(completion(data));
   require_number(data, data.checks.size(), data.study->declared_checks, "checks made in all");
+  explain_failures(data);
   for (const ClaimSpec& claim : data.study->claims) data.claims.push_back(judged(claim, data, evidence));
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "verification/commands/commands.hpp"
+#include "verification/commands/output.hpp"
 #include "verification/reading/study_folder.hpp"
 #include "verification/reading/study_reader.hpp"
 
@@ -43,19 +44,19 @@ std::string joined(const std::vector<std::string>& words) {
 void print_scene(const Study& study) {
   const PlannedRun& run = study.runs.front();
   const SceneConfig& scene = run.scene;
-  fmt::print("flow        {}, {}\n", scene.flow_name, scene.fluid.label);
+  say("flow        {}, {}\n", scene.flow_name, scene.fluid.label);
   if (!study.solver)
-    fmt::print("scheme      {}, {}, {}{}\n", mpm::name(scene.scheme.basis), mpm::name(scene.scheme.transfer),
+    say("scheme      {}, {}, {}{}\n", mpm::name(scene.scheme.basis), mpm::name(scene.scheme.transfer),
                mpm::name(scene.scheme.stepping), study.variants.size() > 1 ? " (first variant)" : "");
   else
-    fmt::print("solver      {}: {}\n", study.solver->name, fmt::join(study.solver->command, " "));
-  fmt::print("until       {:.6g} s, {} output times\n", scene.outputs.back(), scene.outputs.size());
-  fmt::print("against     {}\n", compared_with(study));
+    say("solver      {}: {}\n", study.solver->name, fmt::join(study.solver->command, " "));
+  say("until       {:.6g} s, {} output times\n", scene.outputs.back(), scene.outputs.size());
+  say("against     {}\n", compared_with(study));
   if (study.ladder.axis != Axis::None) {
     std::string levels;
     for (const PlannedRun* level : study.runs_of(study.variants.front()))
       levels += fmt::format("{}{:.4g}", levels.empty() ? "" : ", ", level->step);
-    fmt::print("refined     in {}: {}\n", name(study.ladder.axis), levels);
+    say("refined     in {}: {}\n", name(study.ladder.axis), levels);
   }
 }
 
@@ -64,33 +65,33 @@ void print_scene(const Study& study) {
 int explain_command(const ExplainOptions& options) {
   const Study study = options.study.ends_with(".toml") ? read_study(options.study)
                                                        : read_study_named(options.studies, options.study);
-  fmt::print("{}: {}\n{}\n\n", study.name, study.title, study.claim);
-  fmt::print("suite       {}{}\n", name(study.suite), study.topic.empty() ? "" : ", topic " + study.topic);
+  say("{}: {}\n{}\n\n", study.name, study.title, study.claim);
+  say("suite       {}{}\n", name(study.suite), study.topic.empty() ? "" : ", topic " + study.topic);
   if (!study.runs.empty()) print_scene(study);
-  fmt::print("variants    {}\n", joined(study.variants));
+  say("variants    {}\n", joined(study.variants));
   const std::size_t jobs = study.runs.size() + study.stability.cases.size();
-  fmt::print(
+  say(
       "costs       {} runs{}, {:.3g} particle-steps, about {:.1f} s on one core\n", jobs,
       study.repetitions > 0 ? fmt::format(", each timed {} times after a warm-up", study.repetitions) : "",
       study.particle_steps(), study.particle_steps() * (study.repetitions + 1) / particle_steps_per_second);
-  fmt::print("\nchecks, and why those bounds:\n");
+  say("\nchecks, and why those bounds:\n");
   for (const CheckSpec& check : study.checks) {
     std::string what = check.kind;
     if (!check.quantity.empty()) what += ", " + check.quantity;
     if (!check.norm.empty()) what += ", " + check.norm;
     if (!check.against.empty()) what += ", against " + check.against;
-    fmt::print("- {}: {}  [{}]\n  {}\n", what, bounds_of(check), joined(check.variants), check.reason);
-    if (!check.claim.empty()) fmt::print("  evidence for: {}\n", check.claim);
+    say("- {}: {}  [{}]\n  {}\n", what, bounds_of(check), joined(check.variants), check.reason);
+    if (!check.claim.empty()) say("  evidence for: {}\n", check.claim);
   }
   if (!study.runs.empty() && std::ranges::none_of(study.checks, [](const CheckSpec& c) {
         return c.kind == "divergence" || c.kind == "outcome";
       }))
-    fmt::print("- runs that did not complete: 0\n  no run of this study is expected to diverge\n");
+    say("- runs that did not complete: 0\n  no run of this study is expected to diverge\n");
   for (const ClaimSpec& claim : study.claims)
-    fmt::print("\nclaim ({}): {}\n  declared: {}. {}\n", claim.source, claim.statement, claim.verdict,
+    say("\nclaim ({}): {}\n  declared: {}. {}\n", claim.source, claim.statement, claim.verdict,
                claim.note);
-  if (!study.figures.empty()) fmt::print("\nfigures:\n");
-  for (const auto& figure : study.figures) fmt::print("- {} ({})\n", figure.title, figure.kind);
+  if (!study.figures.empty()) say("\nfigures:\n");
+  for (const auto& figure : study.figures) say("- {} ({})\n", figure.title, figure.kind);
   return 0;
 }
 

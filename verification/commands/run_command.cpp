@@ -128,6 +128,7 @@ int job_count(int asked) {
 
 int run_command(const RunOptions& options) {
   const std::vector<Study> studies = chosen_studies(options);
+  require_distinct_runs(studies);
   if (studies.empty()) throw ConfigError("no study of that suite: nothing would be verified");
   const int jobs = job_count(options.jobs);
   const std::filesystem::path kept = options.no_cache ? std::filesystem::path() : cache_directory();

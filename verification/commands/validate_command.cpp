@@ -9,6 +9,7 @@
 #include "reports/records/report_data.hpp"
 #include "reports/records/result_files.hpp"
 #include "verification/commands/commands.hpp"
+#include "verification/commands/output.hpp"
 #include "verification/commands/provenance_of.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/flows/reference_store.hpp"
@@ -67,7 +68,7 @@ std::vector<double> steps_of(const std::filesystem::path& dir, const std::vector
 }
 
 void print_point(const reports::ValidationRecord& r) {
-  fmt::print("{:<4} {:<16} {:>10} {:>10} {:>12} {:>12} {:>11} {:>9} {:>9} {:>9} {}\n",
+  say("{:<4} {:<16} {:>10} {:>10} {:>12} {:>12} {:>11} {:>9} {:>9} {:>9} {}\n",
              r.borne ? "pass" : "FAIL", r.quantity, reports::number(r.t),
              std::isnan(r.y) ? "-" : reports::number(r.y), reports::number(r.measured),
              reports::number(r.simulated), reports::number(r.error, 3), reports::number(r.u_num, 2),
@@ -111,12 +112,12 @@ int validate_command(const ValidateOptions& options) {
   data.study = &study;
   append_comparison(data, "", compare_table(table, runs, rules, Missing::Refuse));
 
-  fmt::print("{}\n{:<4} {:<16} {:>10} {:>10} {:>12} {:>12} {:>11} {:>9} {:>9} {:>9} verdict at k = {:g}\n",
+  say("{}\n{:<4} {:<16} {:>10} {:>10} {:>12} {:>12} {:>11} {:>9} {:>9} {:>9} verdict at k = {:g}\n",
              table.source, "", "quantity", "t", "y", "D", "S", "E", "u_num", "u_input", "u_D",
              options.coverage);
   for (const reports::ValidationRecord& point : data.validation) print_point(point);
   for (const reports::JointValidationRecord& joint : data.joint_validation)
-    fmt::print("{}: d^2 = {} of {} values, p = {}; bias {}, scatter {}\n", joint.quantity,
+    say("{}: d^2 = {} of {} values, p = {}; bias {}, scatter {}\n", joint.quantity,
                reports::number(joint.distance_squared), joint.points, reports::number(joint.p_value, 3),
                reports::number(joint.bias), reports::number(joint.scatter, 3));
   const bool passed = std::ranges::all_of(data.validation,
@@ -137,7 +138,7 @@ int validate_command(const ValidateOptions& options) {
     reports::write_results(options.out, results);
     const reports::ReportOutcome outcome =
         reports::write_report(options.out, {cache_directory(), job_count(0)});
-    for (const std::string& warning : outcome.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : outcome.warnings) warn("warning: {}\n", warning);
   }
   return passed ? 0 : 1;
 }

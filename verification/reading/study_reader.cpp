@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "reports/records/result_files.hpp"
 #include "verification/checks/check_reader.hpp"
@@ -317,6 +318,19 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
   require_delivered(root, study);
   root.refuse_unknown_keys();
   return study;
+}
+
+void require_distinct_runs(const std::vector<Study>& studies) {
+  std::map<std::string, std::string> owner;
+  for (const Study& study : studies)
+    for (const PlannedRun& run : study.runs) {
+      const auto [found, added] = owner.emplace(run.run, study.name);
+      if (!added)
+        throw ConfigError(
+            fmt::format("studies '{}' and '{}' both have a run named '{}': they would write the same "
+                        "files; rename a study or a variant",
+                        found->second, study.name, run.run));
+    }
 }
 
 }  // namespace verification

@@ -12,4 +12,7 @@ namespace verification {
 /// `topic` is the chapter of the report that it belongs to unless it names one.
 Study read_study(const std::filesystem::path& file, const std::string& topic = "");
 
+/// Throws ConfigError where two runs, of one study or of two, have the same name and so the same files.
+void require_distinct_runs(const std::vector<Study>& studies);
+
 }  // namespace verification

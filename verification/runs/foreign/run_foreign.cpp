@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "reports/files/csv.hpp"
@@ -146,6 +147,28 @@ std::vector<double> probe_from_profile(const std::vector<reports::ProfileRow>& r
   return values;
 }
 
+/// What the solver says of itself in run.json, where it leaves one. Throws where that is a failure.
+void read_run_json(const fs::path& file, RunData& data) {
+  std::ifstream in(file);
+  if (!in) return;
+  try {
+    const nlohmann::json json = nlohmann::json::parse(in);
+    const std::string status = json.value("status", "completed"), message = json.value("message", "");
+    if (status != "completed")
+      throw std::runtime_error("its run.json says '" + status + "'" +
+                               (message.empty() ? "" : ": " + message));
+    if (const std::string version = json.value("version", ""); !version.empty())
+      data.record.method += " " + version;
+    data.record.steps = json.value("steps", data.record.steps);
+    data.record.particles = json.value("particles", data.record.particles);
+    data.record.cells = json.value("cells", data.record.cells);
+    data.record.dt = json.value("dt", data.record.dt);
+    data.timing.wall_s = json.value("wall_s", data.timing.wall_s);
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(std::string("its run.json cannot be read: ") + error.what());
+  }
+}
+
 }  // namespace
 
 RunData run_foreign(const Study& study, const PlannedRun& plan, const fs::path& out) {
@@ -195,6 +218,11 @@ RunData run_foreign(const Study& study, const PlannedRun& plan, const fs::path& 
   data.timing.run = plan.run;
   data.timing.wall_s = end.seconds;
   data.timing.particle_steps_per_s = nan;
+  try {
+    read_run_json(folder / "run.json", data);
+  } catch (const std::runtime_error& error) {
+    fail(error.what());
+  }
   return data;
 }
 

@@ -159,3 +159,17 @@ reason = "theory"
   CHECK_THROWS_WITH(read(changed("end = 0.01", "end = 0.01\nstart = 0.005")), contains("time.start"));
   CHECK_THROWS_WITH(read(changed("density = 900", "pressure = false")), contains("pressure"));
 }
+
+TEST_CASE("runs of two studies that would write the same files are refused") {
+  const Study one = read_study_text(with("name = \"a\"", "name = \"q.b\""), "s");
+  const Study two = read_study_text(with("name = \"a\"", "name = \"c\""), "s.q");
+  CHECK_NOTHROW(require_distinct_runs({one}));
+  CHECK_THROWS_WITH(require_distinct_runs({one, two}), contains("same files"));
+}
+
+TEST_CASE("a level of a ladder in time that would not be taken as asked is refused") {
+  const std::string time =
+      with("axis = \"space\"\ncells = [8, 16]", "axis = \"time\"\ndt = [1e-3, 5e-4, 2.5e-4]");
+  CHECK_NOTHROW(read(time));
+  CHECK_THROWS_WITH(read(replaced(time, "dt = [1e-3, 5e-4", "dt = [3e-3, 5e-4")), contains("divide"));
+}
