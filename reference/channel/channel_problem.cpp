@@ -13,13 +13,19 @@ void ChannelProblem::check() const {
   require(std::isfinite(height) && height > 0.0, "channel: the height must be positive and finite");
   require(std::isfinite(body_acceleration), "channel: the body acceleration must be finite");
   require(std::isfinite(plate_velocity), "channel: the plate velocity must be finite");
-  require(body_acceleration != 0.0 || plate_velocity != 0.0, "channel: nothing drives the flow");
+  require(std::isfinite(initial_acceleration), "channel: the acceleration before t = 0 must be finite");
+  require(initial_acceleration == 0.0 || plate_velocity == 0.0,
+          "channel: a flow that begins steady needs plates at rest");
+  require(body_acceleration != 0.0 || plate_velocity != 0.0 || initial_acceleration != 0.0,
+          "channel: nothing drives the flow");
   require(std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t) && t >= 0.0; }),
           "channel: times must be finite and not negative");
 }
 
 std::string ChannelProblem::describe_flow() const {
-  return fmt::format("H={:.17g} F={:.17g} V0={:.17g} {}", height, body_acceleration, plate_velocity,
+  std::string before;
+  if (initial_acceleration != 0.0) before = fmt::format("F(t<0)={:.17g} ", initial_acceleration);
+  return fmt::format("H={:.17g} F={:.17g} V0={:.17g} {}{}", height, body_acceleration, plate_velocity, before,
                      curve.describe());
 }
 

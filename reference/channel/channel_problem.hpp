@@ -8,13 +8,16 @@
 namespace reference {
 
 /// Start-up of a channel from rest at t = 0: plates at y = 0 (at rest) and y = H, a constant body
-/// acceleration F and an upper plate that moves with V0 from t = 0 on. SI units.
+/// acceleration F and an upper plate that moves with V0 from t = 0 on. Between plates at rest the flow may
+/// also begin as the steady one of another body acceleration, which F replaces at t = 0: F = 0 is cessation.
+/// SI units.
 struct ChannelProblem {
-  double height = 0.0;             ///< H [m] > 0
-  double body_acceleration = 0.0;  ///< F [m/s2], any sign
-  double plate_velocity = 0.0;     ///< V0 [m/s], any sign; F and V0 not both zero
-  FlowCurve curve;                 ///< monotone up to the shear rates that occur
-  std::vector<double> times;       ///< [s] >= 0, at which the solution is wanted; any order
+  double height = 0.0;                ///< H [m] > 0
+  double body_acceleration = 0.0;     ///< F [m/s2], any sign
+  double plate_velocity = 0.0;        ///< V0 [m/s], any sign; F and V0 not both zero
+  FlowCurve curve;                    ///< monotone up to the shear rates that occur
+  std::vector<double> times;          ///< [s] >= 0, at which the solution is wanted; any order
+  double initial_acceleration = 0.0;  ///< F before t = 0 [m/s2], whose steady flow is the start; 0: from rest
 
   /// Throws std::invalid_argument for values out of these ranges.
   void check() const;

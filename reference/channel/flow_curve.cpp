@@ -142,6 +142,65 @@ std::string CarreauYasudaCurve::describe() const {
                      nu_inf, lambda, a, n);
 }
 
+void HerschelBulkleyCurve::check() const {
+  require(positive(nu_0), "Herschel-Bulkley fluid: nu_0 must be positive and finite");
+  require(positive(n), "Herschel-Bulkley fluid: n must be positive and finite");
+  require(positive(tau_y), "Herschel-Bulkley fluid: tau_y must be positive and finite");
+  require(m > 0.0, "Herschel-Bulkley fluid: m must be positive");
+}
+
+double HerschelBulkleyCurve::viscosity(double w) const {
+  const double power = n == 1.0 ? nu_0 : nu_0 * std::pow(w, n - 1.0);
+  if (w == 0.0) return power + tau_y * m;
+  return power - tau_y * std::expm1(-m * w) / w;
+}
+
+double HerschelBulkleyCurve::slope(double w) const {
+  const double power = n == 1.0 ? nu_0 : n * nu_0 * std::pow(w, n - 1.0);
+  if (std::isinf(m)) return w == 0.0 ? m : power;
+  return power + tau_y * m * std::exp(-m * w);
+}
+
+double HerschelBulkleyCurve::rate(double tau) const {
+  const double beyond = tau - tau_y, least = beyond > 0.0 ? std::pow(beyond / nu_0, 1.0 / n) : 0.0;
+  if (std::isinf(m)) return least;
+  // A bracket: the regularised stress lies below the ideal one, above each of its parts, and below
+  // nu_0 w^n + tau_y m w. In it Newton's method, which a bisection of log(w) replaces where it would leave
+  // it.
+  double low = std::max(least, std::min(std::pow(0.5 * tau / nu_0, 1.0 / n), 0.5 * tau / (tau_y * m)));
+  double high = std::pow(tau / nu_0, 1.0 / n);
+  if (beyond < 0.0) high = std::min(high, -std::log1p(-tau / tau_y) / m);
+  high = std::max(high, low);
+  double w = low;
+  for (int i = 0; i < 200; ++i) {
+    // With beyond, nothing cancels far above the yield stress, nor with expm1 far below it.
+    const double power = nu_0 * std::pow(w, n), decay = std::exp(-m * w);
+    const double excess =
+        beyond > 0.0 ? (power - beyond) - tau_y * decay : (power - tau) - tau_y * std::expm1(-m * w);
+    if (excess == 0.0) return w;
+    (excess < 0.0 ? low : high) = w;
+    const double next = w - excess / slope(w);
+    const bool inside = next > low && next < high;
+    const double before = w;
+    w = inside ? next : std::sqrt(low) * std::sqrt(high);
+    if (std::abs(w - before) <= 2.0 * std::numeric_limits<double>::epsilon() * w) return w;
+  }
+  return w;
+}
+
+double HerschelBulkleyCurve::potential(double w) const {
+  const double yield = std::isinf(m) ? w : w + std::expm1(-m * w) / m;
+  return nu_0 * std::pow(w, n + 1.0) / (n + 1.0) + tau_y * yield;
+}
+
+std::string HerschelBulkleyCurve::describe() const {
+  return fmt::format("Herschel-Bulkley nu_0={:.17g} n={:.17g} tau_y={:.17g} m={:.17g}", nu_0, n, tau_y, m);
+}
+
+HerschelBulkleyCurve HerschelBulkleyCurve::ideal() const {
+  return {nu_0, n, tau_y, std::numeric_limits<double>::infinity()};
+}
+
 FlowCurve::FlowCurve(const Model& model) : model_(model) {
   std::visit([](const auto& m) { m.check(); }, model_);
 }

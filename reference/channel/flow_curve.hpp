@@ -66,11 +66,31 @@ struct CarreauYasudaCurve {
   [[nodiscard]] std::string describe() const;
 };
 
+/// tau = nu_0 w^n + tau_y (1 - exp(-m w)): Herschel & Bulkley's fluid, n = 1 Bingham's, with Papanastasiou's
+/// regularisation (J. Rheol. 31, 1987, 385); m = infinity is the ideal fluid, which does not flow below
+/// tau_y.
+struct HerschelBulkleyCurve {
+  double nu_0 = 0.0;   ///< consistency [m2/s] at w = 1/s, > 0
+  double n = 1.0;      ///< [-] > 0
+  double tau_y = 0.0;  ///< yield stress over density [m2/s2] > 0
+  double m = 0.0;      ///< [s] > 0
+  void check() const;
+  [[nodiscard]] double viscosity(double w) const;
+  [[nodiscard]] double slope(double w) const;
+  [[nodiscard]] double rate(double tau) const;
+  [[nodiscard]] double potential(double w) const;
+  [[nodiscard]] std::optional<double> newtonian() const { return std::nullopt; }
+  [[nodiscard]] std::string describe() const;
+  /// The same fluid without regularisation.
+  [[nodiscard]] HerschelBulkleyCurve ideal() const;
+};
+
 /// Any of the models above, with what every reference solution needs of it. Signs: stress and rate are odd,
 /// viscosity, slope and potential even functions.
 class FlowCurve {
  public:
-  using Model = std::variant<NewtonianCurve, CrossCurve, PowerLawCurve, CarreauYasudaCurve>;
+  using Model =
+      std::variant<NewtonianCurve, CrossCurve, PowerLawCurve, CarreauYasudaCurve, HerschelBulkleyCurve>;
 
   /// Throws std::invalid_argument for parameters out of their ranges.
   FlowCurve(const Model& model);  // NOLINT(google-explicit-constructor): a model is a flow curve
@@ -78,6 +98,7 @@ class FlowCurve {
   FlowCurve(const CrossCurve& model) : FlowCurve(Model(model)) {}
   FlowCurve(const PowerLawCurve& model) : FlowCurve(Model(model)) {}
   FlowCurve(const CarreauYasudaCurve& model) : FlowCurve(Model(model)) {}
+  FlowCurve(const HerschelBulkleyCurve& model) : FlowCurve(Model(model)) {}
 
   [[nodiscard]] const Model& model() const { return model_; }
 
@@ -98,6 +119,10 @@ class FlowCurve {
   /// The constant viscosity [m2/s] if the curve is Newtonian whatever its model (a = 1, n = 1, nu_0 =
   /// nu_inf).
   [[nodiscard]] std::optional<double> newtonian() const;
+  /// The model if it has a yield stress, else null.
+  [[nodiscard]] const HerschelBulkleyCurve* yielding() const {
+    return std::get_if<HerschelBulkleyCurve>(&model_);
+  }
   /// dlog(tau)/dlog(w) at w > 0: the exponent of the power law that osculates the curve there.
   [[nodiscard]] double local_exponent(double w) const { return slope(w) / viscosity(w); }
 

@@ -14,9 +14,8 @@
 namespace reference {
 namespace {
 
-/// Integral of the rate over stresses from - d to + d around `middle`, divided by 2 d: Gauss, 24 points. Used
-/// for d <= 0.2 |middle|, where an integrand analytic but for tau = 0 is resolved to (5 + sqrt 24)^-48 =
-/// 1e-47.
+/// Integral of the rate over stresses from - d to + d around `middle`, divided by 2 d: Gauss, 24 points. For
+/// d <= 0.2 |middle| an integrand analytic but for tau = 0 is resolved to (5 + sqrt 24)^-48 = 1e-47.
 double mean_rate(const FlowCurve& curve, double middle, double d) {
   static const std::unique_ptr<gsl_integration_glfixed_table, decltype(&gsl_integration_glfixed_table_free)>
       table(gsl_integration_glfixed_table_alloc(24), &gsl_integration_glfixed_table_free);
@@ -25,6 +24,33 @@ double mean_rate(const FlowCurve& curve, double middle, double d) {
     double x = 0.0, weight = 0.0;
     gsl_integration_glfixed_point(-1.0, 1.0, i, &x, &weight, table.get());
     sum += 0.5 * weight * curve.rate(middle + d * x);
+  }
+  return sum;
+}
+
+/// Gauss's rule on [low, high], halved until two halves agree with the whole to round-off: for rates with a
+/// sharp bend, which a regularised yield stress is. `scale`: of the integral [m2/s3].
+double bent_integral(const FlowCurve& curve, double low, double high, double scale, int depth) {
+  const auto gauss = [&](double a, double b) {
+    return (b - a) * mean_rate(curve, 0.5 * (a + b), 0.5 * (b - a));
+  };
+  const double middle = 0.5 * (low + high), whole = gauss(low, high);
+  const double left = gauss(low, middle), right = gauss(middle, high);
+  if (depth == 0 || std::abs(left + right - whole) <= 1e-15 * scale) return left + right;
+  return bent_integral(curve, low, middle, scale, depth - 1) +
+         bent_integral(curve, middle, high, scale, depth - 1);
+}
+
+/// Integral of the rate of a fluid with a yield stress from stress `low` to `high`, from bend to bend.
+double yielding_integral(const FlowCurve& curve, double low, double high) {
+  const double tau_y = curve.yielding()->tau_y;
+  const double scale = (high - low) * std::max(std::abs(curve.rate(low)), std::abs(curve.rate(high)));
+  double sum = 0.0, from = low;
+  for (const double bend : {-tau_y, 0.0, tau_y, high}) {
+    const double to = std::min(bend, high);
+    if (to <= from) continue;
+    sum += bent_integral(curve, from, to, std::abs(scale), 40);
+    from = to;
   }
   return sum;
 }
@@ -52,6 +78,12 @@ double SteadyChannel::stress(double y) const {
 
 double SteadyChannel::integrated_rate(double wall_stress, double y) const {
   const double change = body_acceleration_ * y, middle = wall_stress - 0.5 * change;
+  if (curve_.yielding()) {
+    if (change == 0.0) return y * curve_.rate(wall_stress);
+    const double low = std::min(wall_stress, wall_stress - change),
+                 high = std::max(wall_stress, wall_stress - change);
+    return y * (yielding_integral(curve_, low, high) / (high - low));
+  }
   if (std::abs(0.5 * change) <= 0.2 * std::abs(middle)) return y * mean_rate(curve_, middle, 0.5 * change);
   return (curve_.complementary_potential(wall_stress) -
           curve_.complementary_potential(wall_stress - change)) /

@@ -13,7 +13,8 @@ namespace reference {
 /// The stress is the straight line tau(y) = tau_0 - F y, so u(y) = [Psi(tau_0) - Psi(tau_0 - F y)]/F with Psi
 /// the complementary potential w tau - Phi(w) (Bird, Armstrong & Hassager 1987, ch. 4). tau_0 = F H/2 without
 /// a moving plate, else the root of u(H) = V0. Where the stress hardly varies over the gap, that difference
-/// would cancel, and the integral of w(tau) is taken by Gauss quadrature instead.
+/// would cancel, and the integral of w(tau) is taken by Gauss quadrature instead; that of a fluid with a
+/// yield stress, regularised or ideal, always is, from bend to bend (IdealYieldChannel is the closed form).
 class SteadyChannel {
  public:
   /// Throws std::invalid_argument for a non-positive H, a drive that is not finite, a flow curve that is not

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "reference/channel/steady_channel.hpp"
 #include "reference/require.hpp"
 
 namespace reference {
@@ -27,7 +28,12 @@ class Level {
       spacing_.push_back(nodes_[j + 1] - nodes_[j]);
     }
     for (int j = 1; j < cells; ++j) width_.push_back(faces_[j] - faces_[j - 1]);
-    w_.back() = problem.plate_velocity / spacing_.back();
+    if (problem.initial_acceleration != 0.0) {
+      const SteadyChannel before(problem.height, problem.initial_acceleration, 0.0, problem.curve);
+      for (int j = 0; j < cells; ++j)
+        w_[j] = (before.velocity(nodes_[j + 1]) - before.velocity(nodes_[j])) / spacing_[j];
+    }
+    w_.back() += problem.plate_velocity / spacing_.back();
   }
 
   /// TR-BDF2 from 0 to t: step k ends at t (k/steps)^5.

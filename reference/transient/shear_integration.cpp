@@ -33,7 +33,7 @@ Stages extrapolate(const std::vector<double>& start, const Stages& stages, doubl
 /// Size of the difference between two gradients, as integrate_shear describes.
 double distance(const SpectralLine& line, const std::vector<double>& a, const std::vector<double>& b,
                 double t, const ShearIntegration& settings) {
-  double u = 0.0, mean = 0.0, largest_u = 0.0, largest_w = 0.0, scale_w = 0.0;
+  double u = 0.0, mean = 0.0, largest_u = 0.0, largest_w = 0.0, scale_w = settings.least_rate;
   for (std::size_t j = 0; j < a.size(); ++j) {
     const double m = line.mass()[j];
     u += m * (a[j] - b[j]);

@@ -16,6 +16,7 @@ struct ShearIntegration {
       0.0;  ///< [s]: pointwise errors count from here on; before, the error in displacement
   double velocity_scale = 0.0;  ///< [m/s]
   double tolerance = 0.0;       ///< on the extrapolation indicator, see integrate_shear
+  double least_rate = 0.0;      ///< [1/s]: gradients' errors are relative to no less: for flows that die out
 };
 
 /// Integrates from the nodal gradients `w` at start_time; returns the states after every step (the start

@@ -4,6 +4,7 @@
 
 #include "reference/channel/channel_problem.hpp"
 #include "reference/channel/power_law_exact.hpp"
+#include "reference/channel/steady_channel.hpp"
 #include "reference/transient/gradient_history.hpp"
 
 namespace reference {
@@ -25,8 +26,8 @@ TransientResolution fine_resolution(const ChannelProblem& problem);
 /// One computed start-up: which coordinate it lives in, how it begins, and the history of its gradient from
 /// there on.
 ///
-/// - Plates at rest: s = y on the lower half of the gap, zero stress in the middle. It begins at rest; with a
-/// power law of
+/// - Plates at rest: s = y on the lower half of the gap, zero stress in the middle. It begins at rest, or
+/// steady under the problem's initial acceleration; with a power law of
 ///   n >= 1.05 at the moment when the fronts meet, up to which PowerLawStartUp is exact.
 /// - Upper plate moving: s = H - y on the whole gap. It begins as BarenblattCouette's layer under the power
 /// law that osculates
@@ -60,6 +61,7 @@ class TransientSolution {
 
   ChannelProblem problem_;
   TransientResolution resolution_;
+  SteadyChannel before_;  // t = 0
   double velocity_scale_ = 0.0;
   bool thinning_ = false;  // tangent viscosity larger at rest than at the flow's own shear rates
   double start_time_ = 0.0;

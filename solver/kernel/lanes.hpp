@@ -139,6 +139,9 @@ inline Lanes sqrt(Lanes x) {
 inline Lanes at_least(Lanes x, double bound) {
   return select(x < bound, bound, x);
 }
+inline Lanes choose_below(Lanes x, double bound, Lanes a, Lanes b) {
+  return select(x < bound, a, b);
+}
 #ifdef MPM_VECTOR_MATH
 inline Lanes exp(Lanes x) {
   return MPM_VECTOR_MATH(exp)(x.v);

@@ -4,6 +4,7 @@
 
 #include "solver/material/rheology/carreau_yasuda.hpp"
 #include "solver/material/rheology/cross.hpp"
+#include "solver/material/rheology/herschel_bulkley.hpp"
 #include "solver/material/rheology/newtonian.hpp"
 #include "solver/material/rheology/power_law.hpp"
 
@@ -15,6 +16,7 @@ namespace mpm {
 // shear rate nor viscosity.
 
 /// Every fluid that the solver knows. Adding one: a short file in rheology/, its name here.
-using Rheology = std::variant<Newtonian, Cross<SquareRoot>, Cross<RealPower>, PowerLaw, CarreauYasuda>;
+using Rheology =
+    std::variant<Newtonian, Cross<SquareRoot>, Cross<RealPower>, PowerLaw, CarreauYasuda, HerschelBulkley>;
 
 }  // namespace mpm

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/scene/scene.hpp"
@@ -107,6 +108,17 @@ class Flow {
   /// The exact steady nodal values of the linear scheme, for any fluid; null where none are known.
   [[nodiscard]] virtual std::shared_ptr<const ExactField> steady_nodes(const Discretisation&) const {
     return nullptr;
+  }
+
+  /// The steady flow of the ideal fluid that a regularised yield stress stands for; null for other fluids.
+  [[nodiscard]] virtual std::shared_ptr<const ExactField> ideal() const { return nullptr; }
+  /// Edges of the plug in it, along the direction across [m]; none where there is no plug.
+  [[nodiscard]] virtual std::optional<std::pair<double, double>> ideal_plug() const { return std::nullopt; }
+  /// Largest root mean square velocity [m/s] that the fluid can still have at time t [s], from the one at t =
+  /// 0, by an inequality that its equations obey; NaN where none is known.
+  [[nodiscard]] virtual double speed_bound(double initial_speed, double t) const {
+    static_cast<void>(initial_speed), static_cast<void>(t);
+    return std::numeric_limits<double>::quiet_NaN();
   }
 
   /// Velocity that errors are divided by, unless it changes with time [m/s].

@@ -22,7 +22,8 @@ struct FluidConfig {
 };
 
 /// Reads [fluid]: model, kinematic_viscosity, density, pressure, bulk_modulus and the keys of the model.
-/// Throws ConfigError.
-FluidConfig read_fluid(TomlTable table);
+/// `cells` is the number of cells across the flow, from which a regularisation may follow. Throws
+/// ConfigError.
+FluidConfig read_fluid(TomlTable table, int cells);
 
 }  // namespace verification

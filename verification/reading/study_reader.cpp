@@ -198,7 +198,8 @@ Comparison read_comparison(TomlTable& root) {
   if (comparison == "exact") return Comparison::Exact;
   if (comparison == "discrete") return Comparison::Discrete;
   if (comparison == "steady-nodes") return Comparison::SteadyNodes;
-  root.fail("compare_with", "must be \"exact\", \"discrete\" or \"steady-nodes\"");
+  if (comparison == "ideal") return Comparison::Ideal;
+  root.fail("compare_with", "must be \"exact\", \"discrete\", \"steady-nodes\" or \"ideal\"");
 }
 
 ClaimSpec read_claim(TomlTable& table) {
@@ -240,6 +241,12 @@ void require_comparable(const TomlTable& root, const Study& study) {
       if (!planned.scene.flow->steady_nodes(planned.scene.discretisation))
         root.fail("compare_with",
                   "\"steady-nodes\" is known for Poiseuille flow only (run " + planned.run + ")");
+
+  if (study.comparison == Comparison::Ideal)
+    for (const PlannedRun& planned : study.runs)
+      if (!planned.scene.flow->ideal())
+        root.fail("compare_with", "\"ideal\" is for driven channels of a fluid with a yield stress (run " +
+                                      planned.run + ")");
 
   if (study.comparison != Comparison::Discrete) return;
   for (const PlannedRun& planned : study.runs) {

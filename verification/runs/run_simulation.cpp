@@ -161,6 +161,8 @@ std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneC
       return scene.flow->exact_discrete(scene.discretisation, scene.segments.front().dt);
     case Comparison::SteadyNodes:
       return scene.flow->steady_nodes(scene.discretisation);
+    case Comparison::Ideal:
+      return scene.flow->ideal();
     default:
       return scene.flow->exact(scene.reference_times());
   }
@@ -228,7 +230,7 @@ RunData run_simulation(const Study& study, const PlannedRun& plan) {
   }
   RunData data = simulate(study, plan, started, exact.get());
   if (study.repetitions > 0) repeat_timing(study, plan, started, exact.get(), data.timing);
-  if (exact && study.comparison == Comparison::Exact) {
+  if (exact && (study.comparison == Comparison::Exact || study.comparison == Comparison::Ideal)) {
     const auto rows = exact_lines(scene, *exact);
     data.profile.insert(data.profile.end(), rows.begin(), rows.end());
     const auto shear = exact_shear(scene, *exact);

@@ -54,6 +54,20 @@ FlowPointer read_channel(TomlTable& table, const FluidConfig& fluid, bool driven
   }
 }
 
+FlowPointer read_cessation(TomlTable& table, const FluidConfig& fluid) {
+  ChannelParameters p;
+  p.height = table.positive("height");
+  p.length = table.positive("length", 0);
+  p.axis = read_axis(table, "x");
+  p.initial_acceleration = read_nonzero(table, "initial_acceleration");
+  p.fluid = fluid;
+  try {
+    return std::make_shared<ChannelFlow>(p);
+  } catch (const std::invalid_argument& error) {
+    table.fail("flow", error.what());
+  }
+}
+
 double newtonian_viscosity(const TomlTable& table, const FluidConfig& fluid) {
   const auto nu = fluid.curve.newtonian();
   if (!nu) table.fail("flow", "has an exact solution for a Newtonian fluid only");
@@ -273,6 +287,7 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
       {"couette", [](TomlTable& t, const FluidConfig& f) { return read_channel(t, f, false, true); }},
       {"couette-poiseuille",
        [](TomlTable& t, const FluidConfig& f) { return read_channel(t, f, true, true); }},
+      {"cessation", read_cessation},
       {"acoustic-wave", read_acoustic_wave},
       {"shear-wave", read_shear_wave},
       {"oblique-shear-wave", read_oblique_wave},

@@ -156,12 +156,12 @@ double SceneConfig::particle_steps() const {
 SceneConfig read_scene_config(TomlTable root) {
   SceneConfig config;
   config.toml = root.restricted_to(scene_tables()).print();
-  config.fluid = read_fluid(root.table("fluid"));
+  TomlTable discretisation = root.table("discretisation");
+  config.discretisation = read_discretisation(discretisation);
+  config.fluid = read_fluid(root.table("fluid"), config.discretisation.cells);
   TomlTable scene = root.table("scene");
   config.flow_name = scene.text("flow");
   config.flow = read_flow(scene, config.fluid);
-  TomlTable discretisation = root.table("discretisation");
-  config.discretisation = read_discretisation(discretisation);
   const mpm::Seeding seeding = read_seeding(discretisation, config.flow->across());
   discretisation.refuse_unknown_keys();
   config.scheme = read_scheme(root.table("scheme"));

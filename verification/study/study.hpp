@@ -22,8 +22,9 @@ std::string name(Suite suite);
 Suite suite_named(const std::string& text);
 
 /// What a run is compared with: the differential equations' solution, or the scheme's own (Discrete: a
-/// Newtonian channel at any time; SteadyNodes: any fluid, on the grid, once nothing changes any more).
-enum class Comparison { Exact, Discrete, SteadyNodes };
+/// Newtonian channel at any time; SteadyNodes: any fluid, on the grid, once nothing changes any more), or
+/// the steady flow of the ideal fluid in place of one whose yield stress is regularised.
+enum class Comparison { Exact, Discrete, SteadyNodes, Ideal };
 
 /// One simulation of a study.
 struct PlannedRun {

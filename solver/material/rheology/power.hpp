@@ -37,4 +37,15 @@ typename Derived::PlainObject at_least(const Eigen::ArrayBase<Derived>& x, doubl
   return x.max(bound);
 }
 
+/// a where x < bound, else b, element by element.
+inline double choose_below(double x, double bound, double a, double b) {
+  return x < bound ? a : b;
+}
+template <class Derived>
+typename Derived::PlainObject choose_below(const Eigen::ArrayBase<Derived>& x, double bound,
+                                           const typename Derived::PlainObject& a,
+                                           const typename Derived::PlainObject& b) {
+  return (x < bound).select(a, b);
+}
+
 }  // namespace mpm

@@ -71,6 +71,19 @@ TEST_CASE("viscosities follow their formulas, alike for one shear rate and for a
   agree(PowerLaw{2, 1.4, 1e-4, 0}, [](double g) { return 2 * std::pow(std::max(g, 1e-4), 0.4); });
   agree(CarreauYasuda{2, 0.5, 3, 1.5, 0.4, 0},
         [](double g) { return 0.5 + 1.5 * std::pow(1 + std::pow(3 * g, 1.5), -0.6 / 1.5); });
+  for (const double n : {0.6, 1.0, 1.4})
+    agree(HerschelBulkley{2, n, 0.5, 100, 1e-4, 0},
+          [n](double g) { return 2 * std::pow(std::max(g, 1e-4), n - 1) - 0.5 * std::expm1(-100 * g) / g; });
+}
+
+TEST_CASE("the regularised yield stress loses no digit, on either side of where its two forms meet") {
+  CHECK(mean_of_decay(0.0) == 1);
+  for (double x = 1e-9; x < 800; x *= 1.01) {
+    INFO("x = " << x);
+    CHECK(mean_of_decay(x * x) == Approx(-std::expm1(-x) / x).epsilon(1e-15));
+  }
+  for (const double x : {1 - 1e-15, 1.0, 1 + 1e-15})
+    CHECK(mean_of_decay(x * x) == Approx(1 - std::exp(-1.0)).epsilon(1e-15));
 }
 
 TEST_CASE("Newtonian limits are exact, and zero shear is finite") {
@@ -82,6 +95,8 @@ TEST_CASE("Newtonian limits are exact, and zero shear is finite") {
   CHECK(Cross<RealPower>{2, 0.5, 3, {0.35}}.viscosity(0.0) == 2);
   CHECK(CarreauYasuda{2, 0.5, 3, 2, 0.5, 0}.viscosity(0.0) == 2);
   CHECK(std::isfinite(PowerLaw{2, 0.2, 1e-6, 0}.viscosity(0.0)));
+  CHECK(HerschelBulkley{2, 1, 0.5, 100, 1e-4, 0}.viscosity(0.0) == 52);
+  CHECK(HerschelBulkley{2, 1, 0, 100, 1e-4, 0}.viscosity(7.3) == 2);
 }
 
 TEST_CASE("the largest viscosity bounds what the fluid shows, and the tangent of a thickening power law") {
@@ -89,4 +104,6 @@ TEST_CASE("the largest viscosity bounds what the fluid shows, and the tangent of
   CHECK(PowerLaw{2, 0.5, 1e-4, 0}.largest_viscosity() == Approx(200));
   CHECK(PowerLaw{2, 2, 1e-4, 5}.largest_viscosity() == Approx(20));  // tau = 2 gdot^2, slope 4 gdot
   CHECK(CarreauYasuda{2, 0.5, 3, 2, 0.5, 0}.largest_viscosity() == 2);
+  CHECK(HerschelBulkley{2, 1, 0.5, 100, 1e-4, 0}.largest_viscosity() == 52);
+  CHECK(HerschelBulkley{2, 0.5, 0.5, 100, 1e-4, 0}.largest_viscosity() == Approx(250));
 }

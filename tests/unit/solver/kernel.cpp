@@ -132,9 +132,12 @@ TEST_CASE("vector kernels give what the general solver gives: every scheme that 
 }
 
 TEST_CASE("vector kernels: every rheology, with pressure and without") {
-  const std::vector<Rheology> fluids{Newtonian{1e-3}, Cross<SquareRoot>{1e-3, 4e-3, 1e-2, {}},
-                                     Cross<RealPower>{1e-3, 2e-4, 1e-2, {0.35}}, PowerLaw{1e-3, 0.8, 1e-3, 0},
-                                     CarreauYasuda{1e-3, 1e-4, 1e-2, 1.5, 0.6, 0}};
+  const std::vector<Rheology> fluids{Newtonian{1e-3},
+                                     Cross<SquareRoot>{1e-3, 4e-3, 1e-2, {}},
+                                     Cross<RealPower>{1e-3, 2e-4, 1e-2, {0.35}},
+                                     PowerLaw{1e-3, 0.8, 1e-3, 0},
+                                     CarreauYasuda{1e-3, 1e-4, 1e-2, 1.5, 0.6, 0},
+                                     HerschelBulkley{1e-3, 0.8, 1e-2, 0.02, 1e-3, 0}};
   for (const Rheology& fluid : fluids)
     for (const bool pressure : {true, false})
       for (const Scheme::Basis basis : bases) {

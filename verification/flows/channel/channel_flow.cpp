@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/channel/cessation_bound.hpp"
 #include "reference/channel/discrete_usf_channel.hpp"
 #include "reference/channel/steady_channel.hpp"
 #include "reference/transient/transient_channel.hpp"
@@ -92,7 +93,9 @@ class SteadyNodes final : public ExactField {
 ChannelFlow::ChannelFlow(const ChannelParameters& parameters) : parameters_(parameters) {
   const reference::SteadyChannel steady(parameters.height, parameters.body_acceleration,
                                         parameters.plate_velocity, parameters.fluid.curve);
-  steady_maximum_ = steady.maximum();
+  const reference::SteadyChannel before(parameters.height, parameters.initial_acceleration, 0,
+                                        parameters.fluid.curve);
+  steady_maximum_ = std::max(steady.maximum(), before.maximum());
   steady_mid_height_ = steady.mid_height_velocity();
 }
 
@@ -112,6 +115,13 @@ mpm::Scene ChannelFlow::scene(const Discretisation& d) const {
   const Vec2 b = parameters_.body_acceleration * unit(along);
   scene.body_acceleration = [b](double) { return b; };
   scene.fluid = parameters_.fluid.solver;
+  if (parameters_.initial_acceleration != 0) {
+    const reference::SteadyChannel before(parameters_.height, parameters_.initial_acceleration, 0,
+                                          parameters_.fluid.curve);
+    scene.initial_velocity = [before, along, across](const Vec2& x) {
+      return before.velocity(x[across]) * unit(along);
+    };
+  }
   return scene;
 }
 
@@ -126,13 +136,47 @@ std::optional<CostlyReference> ChannelFlow::costly_reference(const std::vector<d
 }
 
 reference::ChannelProblem ChannelFlow::problem(const std::vector<double>& times) const {
+  return {parameters_.height,
+          parameters_.body_acceleration,
+          parameters_.plate_velocity,
+          parameters_.fluid.curve,
+          times,
+          parameters_.initial_acceleration};
+}
+
+bool ChannelFlow::has_ideal() const {
+  return parameters_.fluid.curve.yielding() &&
+         (parameters_.body_acceleration != 0 || parameters_.plate_velocity != 0);
+}
+
+reference::IdealYieldChannel ChannelFlow::ideal_channel() const {
   return {parameters_.height, parameters_.body_acceleration, parameters_.plate_velocity,
-          parameters_.fluid.curve, times};
+          *parameters_.fluid.curve.yielding()};
+}
+
+std::shared_ptr<const ExactField> ChannelFlow::ideal() const {
+  if (!has_ideal()) return nullptr;
+  return std::make_shared<ContinuousChannel>(parameters_.axis,
+                                             std::make_shared<reference::IdealYieldChannel>(ideal_channel()));
+}
+
+std::optional<std::pair<double, double>> ChannelFlow::ideal_plug() const {
+  if (!has_ideal()) return std::nullopt;
+  const reference::IdealYieldChannel channel = ideal_channel();
+  if (!(channel.plug_end() > channel.plug_begin())) return std::nullopt;
+  return std::pair{channel.plug_begin(), channel.plug_end()};
+}
+
+double ChannelFlow::speed_bound(double initial_speed, double t) const {
+  const auto* curve = parameters_.fluid.curve.yielding();
+  if (!curve || parameters_.body_acceleration != 0 || parameters_.plate_velocity != 0)
+    return std::numeric_limits<double>::quiet_NaN();
+  return reference::CessationBound(parameters_.height, *curve).speed(initial_speed, t);
 }
 
 std::shared_ptr<const ExactField> ChannelFlow::exact_discrete(const Discretisation& d, double dt) const {
   const auto nu = parameters_.fluid.curve.newtonian();
-  if (!nu) return nullptr;
+  if (!nu || parameters_.initial_acceleration != 0) return nullptr;
   return std::make_shared<DiscreteChannel>(
       parameters_.axis,
       reference::DiscreteUsfChannelParameters{parameters_.height, d.cells, d.particles_across, *nu,
@@ -140,7 +184,7 @@ std::shared_ptr<const ExactField> ChannelFlow::exact_discrete(const Discretisati
 }
 
 std::shared_ptr<const ExactField> ChannelFlow::steady_nodes(const Discretisation& d) const {
-  if (parameters_.plate_velocity != 0) return nullptr;
+  if (parameters_.plate_velocity != 0 || parameters_.body_acceleration == 0) return nullptr;
   const reference::SteadyChannel steady(parameters_.height, parameters_.body_acceleration, 0,
                                         parameters_.fluid.curve);
   return std::make_shared<SteadyNodes>(parameters_.axis, parameters_.height,

@@ -1,19 +1,22 @@
 #pragma once
 
 #include "reference/channel/channel_problem.hpp"
+#include "reference/channel/ideal_yield_channel.hpp"
 #include "verification/flows/flow.hpp"
 #include "verification/flows/fluid_reader.hpp"
 
 namespace verification {
 
 /// A plane channel: fluid between a plate at rest at 0 and a plate at H that moves with V0 from t = 0, driven
-/// by a body acceleration F along the plates, from rest. Poiseuille is V0 = 0, Couette F = 0.
+/// by a body acceleration F along the plates, from rest. Poiseuille is V0 = 0, Couette F = 0. Cessation is V0
+/// = F = 0 after a steady flow.
 struct ChannelParameters {
-  double height = 0;             ///< H [m]
-  double length = 0;             ///< L along the plates [m]; 0: square cells
-  int axis = 0;                  ///< direction of flow, 0 for x, 1 for y
-  double body_acceleration = 0;  ///< F [m/s2]
-  double plate_velocity = 0;     ///< V0 [m/s]
+  double height = 0;                ///< H [m]
+  double length = 0;                ///< L along the plates [m]; 0: square cells
+  int axis = 0;                     ///< direction of flow, 0 for x, 1 for y
+  double body_acceleration = 0;     ///< F [m/s2]
+  double plate_velocity = 0;        ///< V0 [m/s]
+  double initial_acceleration = 0;  ///< F before t = 0, whose steady flow is the start [m/s2]; 0: from rest
   FluidConfig fluid;
 };
 
@@ -30,6 +33,9 @@ class ChannelFlow final : public Flow {
                                                                  double dt) const override;
   [[nodiscard]] std::shared_ptr<const ExactField> steady_nodes(
       const Discretisation& discretisation) const override;
+  [[nodiscard]] std::shared_ptr<const ExactField> ideal() const override;
+  [[nodiscard]] std::optional<std::pair<double, double>> ideal_plug() const override;
+  [[nodiscard]] double speed_bound(double initial_speed, double t) const override;
   [[nodiscard]] double velocity_scale() const override { return steady_maximum_; }
   [[nodiscard]] bool has_shear_profile() const override { return true; }
   [[nodiscard]] double steady_probe() const override { return steady_mid_height_; }
@@ -39,6 +45,8 @@ class ChannelFlow final : public Flow {
   [[nodiscard]] double bias_unit(double cell_size) const override;
 
  private:
+  [[nodiscard]] bool has_ideal() const;
+  [[nodiscard]] reference::IdealYieldChannel ideal_channel() const;
   [[nodiscard]] reference::ChannelProblem problem(const std::vector<double>& times) const;
 
   ChannelParameters parameters_;
