@@ -121,6 +121,15 @@ ParticleLattice read_lattice(TomlTable& table) {
   return lattice;
 }
 
+mpm::Scheme scheme_of(const MatrixEntry& entry) {
+  mpm::Scheme scheme;
+  scheme.basis = mpm::basis_named(entry.basis);
+  scheme.transfer = mpm::transfer_named(entry.transfer);
+  scheme.stepping = mpm::stepping_named(entry.stepping);
+  scheme.flip_fraction = entry.flip_fraction;
+  return scheme;
+}
+
 }  // namespace
 
 std::string name(Passage passage) {
@@ -176,11 +185,7 @@ StabilityPlan read_stability(TomlTable table, const std::vector<MatrixEntry>& ma
   for (const MatrixEntry& entry : matrix)
     for (const Waves wave : waves)
       for (const Passage passage : passages)
-        plan.cases.push_back({entry.variant,
-                              {mpm::basis_named(entry.basis), mpm::transfer_named(entry.transfer),
-                               mpm::stepping_named(entry.stepping), entry.flip_fraction},
-                              wave,
-                              passage});
+        plan.cases.push_back({entry.variant, scheme_of(entry), wave, passage});
   return plan;
 }
 
