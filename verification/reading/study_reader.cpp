@@ -112,11 +112,12 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
     planned.scene = read_scene_config(at_level(scene, ladder, static_cast<int>(level), tag));
     if (ladder.axis == Axis::Time)
       for (const mpm::Segment& segment : planned.scene.segments)
-        if (std::abs(segment.dt / ladder.dt[level] - 1) > 1e-9)
-          scene.fail("ladder.dt",
-                     fmt::format("holds {} s, which does not divide the time between outputs: {} s "
-                                 "would be taken; choose steps that divide it",
-                                 ladder.dt[level], segment.dt));
+        if (std::abs(segment.length(segment.steps - 1) / ladder.dt[level] - 1) > 1e-6)
+          scene.fail(
+              "ladder.dt",
+              fmt::format("holds {} s, which does not divide the time until t = {} s: its last step would "
+                          "take {:.6g} s; choose steps that divide it",
+                          ladder.dt[level], segment.end, segment.length(segment.steps - 1)));
     planned.variant = variant;
     planned.theoretical = ladder.theoretical;
     planned.theoretical_particles = ladder.theoretical_particles;
