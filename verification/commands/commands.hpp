@@ -9,15 +9,6 @@
 // Mistakes of the user are thrown (ConfigError, reports::IoError) and become exit code 2 in main.
 namespace verification {
 
-struct ListOptions {
-  std::filesystem::path studies;
-  std::string suite = "deep";
-  bool names = false;  ///< nothing but names, for scripts and completion
-};
-/// What one core of a present machine does with the solver's plain loops [particle-steps/s]; estimates of
-/// cost rest on it, and say so.
-inline constexpr double particle_steps_per_second = 20e6;
-
 int list_command(const ListOptions& options);
 
 struct ExplainOptions {

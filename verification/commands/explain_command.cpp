@@ -6,6 +6,7 @@
 
 #include "verification/commands/commands.hpp"
 #include "verification/commands/output.hpp"
+#include "verification/scene/scene_cost.hpp"
 #include "verification/reading/study_folder.hpp"
 #include "verification/reading/study_reader.hpp"
 

@@ -102,20 +102,6 @@ Ladder ladder_for(const Study& study, const TomlTable& scene) {
   return ladder;
 }
 
-/// A level whose dt does not divide the time between outputs is run with another step than the ladder says:
-/// one step in N is shorter. From a hundred on that is below a per cent of the step; fewer are refused.
-void require_whole_steps(const TomlTable& table, const SceneConfig& scene, double dt) {
-  constexpr double many_steps = 100;
-  double before = scene.start;
-  for (const double t : scene.outputs) {
-    const double steps = (t - before) / dt;
-    if (steps < 0.5 || (steps < many_steps && std::abs(steps - std::round(steps)) > 1e-6))
-      table.fail("ladder.dt", fmt::format("{} s does not divide the time from {} s to {} s between outputs",
-                                          dt, before, t));
-    before = t;
-  }
-}
-
 /// Runs that vary the inputs, on the coarsest level: a difference needs no fine grid.
 void plan_input_runs(Study& study, const TomlTable& scene, const Ladder& ladder, const std::string& variant) {
   const std::vector<std::string> names = input_variants(*study.validation, variant);
@@ -141,7 +127,14 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
     PlannedRun planned;
     std::string tag;
     planned.scene = read_scene_config(at_level(scene, ladder, static_cast<int>(level), tag));
-    if (ladder.axis == Axis::Time) require_whole_steps(scene, planned.scene, ladder.dt[level]);
+    if (ladder.axis == Axis::Time)
+      for (const mpm::Segment& segment : planned.scene.segments)
+        if (std::abs(segment.length(segment.steps - 1) / ladder.dt[level] - 1) > 1e-6)
+          scene.fail(
+              "ladder.dt",
+              fmt::format("holds {} s, which does not divide the time until t = {} s: its last step would "
+                          "take {:.6g} s; choose steps that divide it",
+                          ladder.dt[level], segment.end, segment.length(segment.steps - 1)));
     planned.variant = variant;
     planned.theoretical = ladder.theoretical;
     planned.theoretical_particles = ladder.theoretical_particles;
