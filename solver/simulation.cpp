@@ -34,6 +34,7 @@ VectorField sample_points(const Scene& scene, const Scheme& scheme) {
 std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& scheme, int threads) {
   scene.validate();
   scheme.validate();
+  check_together(scene, scheme);
   if (threads == 0) threads = default_threads();
   switch (scheme.basis) {
     case Scheme::Basis::Linear:

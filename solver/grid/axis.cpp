@@ -83,4 +83,14 @@ Axis::Axis(double length, int cells, bool periodic, int degree)
   }
 }
 
+std::vector<double> Axis::integrals() const {
+  std::vector<double> sum(static_cast<std::size_t>(count_), 0);
+  for (int cell = 0; cell < cells; ++cell)
+    for (int k = 0; k <= degree; ++k)
+      for (int m = 0; m <= degree; ++m)
+        sum[static_cast<std::size_t>(function(cell + k))] +=
+            h * polynomials(cell)[m * (degree + 1) + k] / (m + 1);
+  return sum;
+}
+
 }  // namespace mpm

@@ -29,6 +29,9 @@ class Axis {
     return coefficients_.data() + piece_[static_cast<std::size_t>(cell)];
   }
 
+  /// Integral of every function over the axis [m].
+  [[nodiscard]] std::vector<double> integrals() const;
+
   /// The cell that holds coordinate x; a point on the far end belongs to the last cell.
   [[nodiscard]] int cell_of(double x) const {
     return std::clamp(static_cast<int>(x * inverse_h), 0, cells - 1);

@@ -99,7 +99,9 @@ struct KernelSetup {
   std::array<LineOfCells, 2> axis;
   Rheology rheology;
   bool has_pressure;
-  TaitPressure pressure;
+  bool has_cell_pressure;  ///< one density a cell
+  CellTaitPressure pressure;
+  double most_inverse_mass;  ///< 1/m_i with which a node feels the stress at most [m/kg]
   const PointState* points;
   std::size_t count;
   int shares;  ///< Part::share is below it

@@ -19,6 +19,8 @@ class LaneKernel final : public Kernel {
         rheology_(setup.rheology),
         pressure_(setup.pressure),
         has_pressure_(setup.has_pressure),
+        has_cell_pressure_(setup.has_cell_pressure),
+        most_inverse_mass_(setup.most_inverse_mass),
         shares_(static_cast<std::size_t>(setup.shares)) {
     make_room();
   }
@@ -71,23 +73,23 @@ class LaneKernel final : public Kernel {
   }
 
   void accelerate(const Part& part, const double b[2], double dt) override {
-    scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
-      const auto stress = cells_.stresses(block).begin();
-      each_slot<fetch_by_forces>(block, part, [&](int k, const Slot& p, const CellWeights<Basis>& n_p) {
-        sums.add(n_p, force_factor(p) * stress[k]);
-      });
-    });
+    if (has_cell_pressure_)
+      accelerate_with_stress<CellTaitPressure>(part);
+    else
+      accelerate_with_stress<TaitPressure>(part);
     accelerate_nodes(part.complete, b, dt);
   }
 
   void update_stress_and_accelerate(const Part& part, const double b[2], double dt) override {
-    with_fluid([&](const auto& law, const auto& pressure) {
+    with_fluid([&]<class Pressure>(const auto& law, const Pressure& pressure) {
       scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
+        CellForces<Pressure> forces{sums};
         strain<fetch_by_forces>(
             block, part, fields_.velocity(), dt, pressure,
             [&](int, const Slot& p, const Strained& strained, const CellWeights<Basis>& n_p) {
-              sums.add(n_p, stress_of(strained, law, pressure, force_factor(p)));
+              forces.add(n_p, stress_of(strained, law, pressure, force_factor(p)));
             });
+        forces.finish(basis_, block);
       });
     });
     accelerate_nodes(part.complete, b, dt);
@@ -166,17 +168,22 @@ class LaneKernel final : public Kernel {
 
   /// Strain rates from the nodal velocity, volumes V (1 + dt tr D), then visit(k, slot, strained, weights).
   template <Fetch fetch, class Pressure, class Visit>
-  void strain(const Block& block, const Part& part, const Pair& v_i, double dt, const Pressure&,
+  void strain(const Block& block, const Part& part, const Pair& v_i, double dt, const Pressure& pressure,
               Visit&& visit) {
     Share& share = shares_[static_cast<std::size_t>(part.share)];
     Strained* const strained = share.strained.data();
     const CellVelocityGradient<Basis> grad_v(basis_, block, v_i);
     Lanes least_volume = 0;
+    [[maybe_unused]] CellStrain of_cell{0, 0};
+    if constexpr (Pressure::is_of_cell) of_cell = strain_cells(block, grad_v, dt, pressure, least_volume);
     const auto strain_slot = [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
       const auto [d_00, d_01] = grad_v[0].at(n_p);
       const auto [d_10, d_11] = grad_v[1].at(n_p);
       strained[k] = {d_00, d_11, d_01 + d_10, 0};
-      if constexpr (Pressure::varies) {
+      if constexpr (Pressure::is_of_cell) {
+        const Lanes excess = 0.5 * (of_cell.dilatation - (d_00 + d_11));
+        strained[k] = {d_00 + excess, d_11 + excess, d_01 + d_10, of_cell.density};
+      } else if constexpr (Pressure::varies) {
         p.volume = p.volume * (1 + dt * (d_00 + d_11));
         strained[k].density = p.mass / select(p.mass > 0, p.volume, 1);
         least_volume = least(least_volume, p.volume);
@@ -186,6 +193,30 @@ class LaneKernel final : public Kernel {
       visit(k, p, strained[k], n_p);
     });
     share.least_volume = least(share.least_volume, least_volume);
+  }
+
+  /// Of the cells of a block: divergence at their centres [1/s] and density after dt [kg/m3].
+  struct CellStrain {
+    Lanes dilatation, density;
+  };
+  /// Their particles' mass over their volume, which grows with the divergence at the centre
+  /// (solver/material/cell_dilatation.hpp); the particles take it, unless dt = 0. A cell is a lane, so
+  /// nothing is exchanged.
+  CellStrain strain_cells(const Block& block, const CellVelocityGradient<Basis>& grad_v, double dt,
+                          const CellTaitPressure& pressure, Lanes& least_volume) {
+    Lanes mass = 0, volume = 0;
+    for (const Slot& p : cells_.slots(block)) {
+      mass += p.mass;
+      volume += p.volume;
+    }
+    const CellWeights<Basis> centre = centre_of_cells(basis_, block);
+    const Lanes dilatation = grad_v[0].at(centre).d_0 + grad_v[1].at(centre).d_1;
+    volume = volume * (1 + dt * dilatation);
+    least_volume = least(least_volume, volume);
+    const Lanes density = at_least(mass / select(mass > 0, volume, 1), pressure.least_density);
+    if (dt > 0)
+      for (Slot& p : cells_.slots(block)) p.volume = p.mass / select(p.mass > 0, density, 1);
+    return {dilatation, density};
   }
 
   /// -V_p: times sigma_p grad N_ip it is the particle's share of f_i (paper Eq. 17); V_p = m_p/rho_p.
@@ -206,14 +237,54 @@ class LaneKernel final : public Kernel {
     return {2 * mu * p.d_00 + isotropic, 2 * mu * p.d_11 + isotropic, mu * p.shear};
   }
 
+  /// What the stress of a block's particles gives to the nodes of their cells. With a pressure of cells the
+  /// mean stress acts at their centres.
+  template <class Pressure>
+  struct CellForces {
+    DivergenceSums<Basis>& sums;
+    Lanes tension = 0;
+
+    void add(const CellWeights<Basis>& n_p, Stress stress) {
+      if constexpr (Pressure::is_of_cell) {
+        const Lanes mean = 0.5 * (stress.s_00 + stress.s_11);
+        tension += mean;
+        stress.s_00 -= mean;
+        stress.s_11 -= mean;
+      }
+      sums.add(n_p, stress);
+    }
+    void finish(const Basis& basis, const Block& block) {
+      if constexpr (Pressure::is_of_cell) sums.add(centre_of_cells(basis, block), {tension, tension, 0});
+    }
+  };
+
+  static CellWeights<Basis> centre_of_cells(const Basis& basis, const Block& block) {
+    const Lanes middle[2] = {0.5, 0.5};
+    return CellWeights<Basis>(basis, block, middle);
+  }
+
+  /// f_i of the stress that the particles have.
+  template <class Pressure>
+  void accelerate_with_stress(const Part& part) {
+    scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
+      const auto stress = cells_.stresses(block).begin();
+      CellForces<Pressure> forces{sums};
+      each_slot<fetch_by_forces>(block, part, [&](int k, const Slot& p, const CellWeights<Basis>& n_p) {
+        forces.add(n_p, force_factor(p) * stress[k]);
+      });
+      forces.finish(basis_, block);
+    });
+  }
+
   /// a_i = f_i/m_i + b, v_i += dt a_i.
   void accelerate_nodes(Rows nodes, const double b[2], double dt) {
     const Pair a_i = fields_.acceleration(), v_i = fields_.velocity();
     const double g[2] = {b[0], b[1]};
+    const Lanes most = most_inverse_mass_;
     fields_.each_node(nodes, [=, inverse = fields_.inverse_mass()](int i, auto count) {
-      const Lanes one_over_m = load(inverse + i);
+      const Lanes one_over_m = load(inverse + i), felt = least(one_over_m, most);
       for (std::size_t c : {0, 1}) {
-        const Lanes a = select(one_over_m > 0, load(a_i[c] + i) * one_over_m + g[c], 0);
+        const Lanes a = select(one_over_m > 0, load(a_i[c] + i) * felt + g[c], 0);
         store_first(count, a_i[c] + i, a);
         store_first(count, v_i[c] + i, load(v_i[c] + i) + dt * a);
       }
@@ -325,8 +396,10 @@ class LaneKernel final : public Kernel {
   void with_fluid(F&& f) const {
     std::visit(
         [&](const auto& law) {
-          if (has_pressure_)
+          if (has_cell_pressure_)
             f(law, pressure_);
+          else if (has_pressure_)
+            f(law, static_cast<const TaitPressure&>(pressure_));
           else
             f(law, NoPressure{});
         },
@@ -337,8 +410,9 @@ class LaneKernel final : public Kernel {
   Basis basis_;
   NodalFields fields_;
   Rheology rheology_;
-  TaitPressure pressure_;
-  bool has_pressure_;
+  CellTaitPressure pressure_;
+  bool has_pressure_, has_cell_pressure_;
+  double most_inverse_mass_;
   std::vector<Share> shares_;
   std::ptrdiff_t bytes_a_cell_ = 0;  // of slots
 };

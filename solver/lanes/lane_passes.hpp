@@ -15,16 +15,18 @@ namespace mpm {
 template <class Basis>
 class LanePasses {
  public:
-  LanePasses(const Scene& scene, Scheme::Stepping stepping, double flip_fraction, int threads)
+  LanePasses(const Scene& scene, const Scheme& scheme, double flip_fraction, int threads)
       : scene_(scene),
-        stepping_(stepping),
+        stepping_(scheme.stepping),
+        dilatation_(scheme.dilatation),
         flip_fraction_(flip_fraction),
         grid_(scene_, Basis::degree),
         layout_(scene_, grid_, Basis::degree),
         team_(threads),
-        sweep_(layout_.lines(), stages_of(stepping)),
+        sweep_(layout_.lines(), stages_of(scheme.stepping)),
         wall_nodes_(scene_, grid_),
         walls_(scene_, grid_, wall_nodes_, layout_, sweep_.shares()),
+        slips_(walls_.slip()),
         particles_(started_particles()),
         kernel_(started_kernel()),
         nodes_(kernel_->nodes()) {
@@ -97,6 +99,7 @@ class LanePasses {
    private:
     void impose_acceleration() {
       passes.walls_.impose_acceleration(part, drive.wall_acceleration, passes.nodes_, drive.dt);
+      if (passes.slips_) passes.walls_.add_drag(part, drive.wall_velocity_at_end, passes.nodes_, drive.dt);
     }
   };
 
@@ -123,7 +126,7 @@ class LanePasses {
             {b[layout_.axis_of(0)], b[layout_.axis_of(1)]},
             walls_.velocity(t),
             walls_.acceleration(t),
-            stepping_ == Scheme::Stepping::Musl ? walls_.velocity(t + dt) : LaneWalls::Values{}};
+            slips_ || stepping_ == Scheme::Stepping::Musl ? walls_.velocity(t + dt) : LaneWalls::Values{}};
   }
 
   /// What is left to do when all particles have moved.
@@ -166,10 +169,18 @@ class LanePasses {
         points[p].density = particles_.density[p];
       }
     std::array<std::vector<double>, 2> polynomials;
-    KernelSetup setup{
-        Basis::degree,         layout_.is_strip(),    {},
-        scene_.fluid.rheology, scene_.fluid.pressure, {scene_.fluid.bulk_modulus, 1 / scene_.fluid.density},
-        points.data(),         points.size(),         sweep_.shares()};
+    const Fluid& fluid = scene_.fluid;
+    KernelSetup setup{Basis::degree,
+                      layout_.is_strip(),
+                      {},
+                      fluid.rheology,
+                      fluid.pressure,
+                      dilatation_ == Scheme::Dilatation::Cell,
+                      {{fluid.bulk_modulus, 1 / fluid.density}, scene_.least_density()},
+                      1 / scene_.least_nodal_mass(),
+                      points.data(),
+                      points.size(),
+                      sweep_.shares()};
     for (int c : {0, 1}) {
       const auto a = static_cast<std::size_t>(c);
       constexpr int size = (Basis::degree + 1) * (Basis::degree + 1);
@@ -201,6 +212,7 @@ class LanePasses {
 
   const Scene scene_;  // its own: whoever made it may be gone
   Scheme::Stepping stepping_;
+  Scheme::Dilatation dilatation_;
   double flip_fraction_;
   Grid grid_;  // geometry alone
   LaneLayout layout_;
@@ -208,6 +220,7 @@ class LanePasses {
   Sweep sweep_;
   WallNodes wall_nodes_;
   LaneWalls walls_;
+  bool slips_;
   mutable Particles particles_;  // a copy, for readers
   mutable bool is_stale_ = false;
   std::unique_ptr<Kernel> kernel_;

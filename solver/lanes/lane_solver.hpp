@@ -20,8 +20,8 @@ inline bool lanes_cover(const Scene& scene, const Scheme& scheme) {
 template <class Basis>
 class LaneSolver final : public Simulation {
  public:
-  LaneSolver(const Scene& scene, Scheme::Stepping stepping, double flip_fraction, int threads)
-      : stepping_(stepping), passes_(scene, stepping, flip_fraction, threads) {}
+  LaneSolver(const Scene& scene, const Scheme& scheme, double flip_fraction, int threads)
+      : stepping_(scheme.stepping), passes_(scene, scheme, flip_fraction, threads) {}
 
   void advance(double t, double dt) override {
     switch (stepping_) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -30,8 +32,12 @@ class LaneWalls {
         if (!wall) continue;
         const std::size_t from[2] = {static_cast<std::size_t>(wall->x_from),
                                      static_cast<std::size_t>(wall->y_from)};
-        nodes_.push_back(
-            {layout.node(k, l), k != i || l != j, {from[layout.axis_of(0)], from[layout.axis_of(1)]}});
+        const auto along = static_cast<std::size_t>(layout.axis_of(0)), across = 1 - along;
+        nodes_.push_back({layout.node(k, l),
+                          k != i || l != j,
+                          {from[along], from[across]},
+                          {wall->drag[along], wall->drag[across]},
+                          wall->slips(0) || wall->slips(1)});
       }
     }
     first_of_row_.push_back(nodes_.size());
@@ -43,7 +49,8 @@ class LaneWalls {
   /// Gives wall nodes the walls' velocity.
   void impose_velocity(const Part& part, const Values& wall, double* const velocity[2]) const {
     for (const Node& node : rows(part.complete))
-      for (int c : {0, 1}) velocity[c][node.index] = wall[node.from[c]][static_cast<std::size_t>(c)];
+      for (int c : {0, 1})
+        if (node.prescribes(c)) velocity[c][node.index] = wall[node.from[c]][static_cast<std::size_t>(c)];
   }
 
   /// The same; of the momentum that this adds, particles take a part: an impulse.
@@ -52,8 +59,10 @@ class LaneWalls {
     if (part_taken > 0)
       for (const Node& node : rows(part.complete))
         for (int c : {0, 1})
-          impulse.of[c] += part_taken * counted_mass(node, fields) *
-                           (wall[node.from[c]][static_cast<std::size_t>(c)] - fields.velocity[c][node.index]);
+          if (node.prescribes(c))
+            impulse.of[c] +=
+                part_taken * counted_mass(node, fields) *
+                (wall[node.from[c]][static_cast<std::size_t>(c)] - fields.velocity[c][node.index]);
     impose_velocity(part, wall, fields.velocity);
   }
 
@@ -63,6 +72,7 @@ class LaneWalls {
     for (const Node& node : rows(part.complete)) {
       const double mass = counted_mass(node, fields);
       for (int c : {0, 1}) {
+        if (!node.prescribes(c)) continue;
         double& a = fields.acceleration[c][node.index];
         const double of_wall = wall[node.from[c]][static_cast<std::size_t>(c)];
         const double change = dt * (of_wall - a);
@@ -71,6 +81,28 @@ class LaneWalls {
         impulse.of[c] += mass * change;
       }
     }
+  }
+
+  /// Gives nodes of walls that let the fluid slip what the wall's drag makes of them over dt; after
+  /// impose_acceleration().
+  void add_drag(const Part& part, const Values& wall_at_end, const NodeFields& fields, double dt) {
+    Impulse& impulse = impulse_[static_cast<std::size_t>(part.share)];
+    for (const Node& node : rows(part.complete))
+      for (int c : {0, 1}) {
+        if (node.prescribes(c)) continue;
+        double& v = fields.velocity[c][node.index];
+        const double change =
+            WallNodes::slip_change(v, wall_at_end[node.from[c]][static_cast<std::size_t>(c)],
+                                   dt * node.drag[c] * fields.inverse_mass[node.index]);
+        v += change;
+        fields.acceleration[c][node.index] += change / dt;
+        impulse.of[c] += counted_mass(node, fields) * change;
+      }
+  }
+
+  /// Whether some wall lets the fluid slip.
+  [[nodiscard]] bool slip() const {
+    return std::any_of(nodes_.begin(), nodes_.end(), [](const Node& node) { return node.slips; });
   }
 
   /// What the walls have given since this was asked last [kg/s], in the order of shares whoever worked on
@@ -89,6 +121,10 @@ class LaneWalls {
     int index;            ///< in the kernel
     bool is_image;        ///< of a periodic node that stands in the list, too
     std::size_t from[2];  ///< the sides that give its two components
+    double drag[2];       ///< WallNodes::Node
+    bool slips;           ///< along one of them
+
+    [[nodiscard]] bool prescribes(int c) const { return !slips || !std::isfinite(drag[c]); }
   };
   /// By component of the kernel, on a cache line of its own.
   struct alignas(64) Impulse {

@@ -9,7 +9,7 @@ namespace mpm {
 
 /// Tait equation of state P = K[(rho/rho0)^7 - 1] (paper Eq. 23) with density following the dilatation.
 struct TaitPressure {
-  static constexpr bool varies = true;
+  static constexpr bool varies = true, is_of_cell = false;
   double bulk_modulus;               ///< K [Pa]
   double inverse_reference_density;  ///< 1/rho0 [m3/kg]
 
@@ -29,9 +29,16 @@ struct TaitPressure {
   }
 };
 
+/// The same with one dilatation and one density a cell (solver/material/cell_dilatation.hpp), which need not
+/// fall below a bound: fluid that can be torn bears no tension.
+struct CellTaitPressure : TaitPressure {
+  static constexpr bool is_of_cell = true;
+  double least_density = 0;  ///< [kg/m3]
+};
+
 /// For scenes declared divergence-free: no pressure, constant density.
 struct NoPressure {
-  static constexpr bool varies = false;
+  static constexpr bool varies = false, is_of_cell = false;
   [[nodiscard]] double advance_density(double density, double, double) const { return density; }
   [[nodiscard]] double pressure(double) const { return 0; }
 };

@@ -6,8 +6,7 @@
 #include <memory>
 #include <variant>
 
-#include "solver/grid/stencil.hpp"
-#include "solver/material/pressure.hpp"
+#include "solver/material/cell_dilatation.hpp"
 #include "solver/particles.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -43,6 +42,9 @@ class FluidStress final : public StressUpdate {
   /// Block by block, so that the viscosities of a block come from one call on an array: in vector registers.
   void operator()(Particles& particles, const Grid& grid, const VectorField& nodal_velocity,
                   double dt) const override {
+    if constexpr (Pressure::is_of_cell)
+      cells_.assign(pressure_, particles, grid, nodal_velocity,
+                    [&](const Mat2& l) { return 1 + dt * l.trace(); });
     std::array<Mat2, block> strain_rate;
     Array mu = Array::Zero();
     for (std::size_t begin = 0; begin < particles.size(); begin += block) {
@@ -50,25 +52,30 @@ class FluidStress final : public StressUpdate {
       for (std::size_t k = 0; k < count; ++k) {
         const Mat2 l = gradient<Basis>(grid, nodal_velocity, particles.position[begin + k]);
         strain_rate[k] = 0.5 * (l + l.transpose());
+        if constexpr (Pressure::is_of_cell)
+          strain_rate[k] += 0.5 * (cells_.dilatation(begin + k) - l.trace()) * Mat2::Identity();
       }
       viscosities(strain_rate, count, mu);
       for (std::size_t k = 0; k < count; ++k) {
         const std::size_t p = begin + k;
         const Mat2& d = strain_rate[k];
-        particles.density[p] = pressure_.advance_density(particles.density[p], d.trace(), dt);
         particles.stress[p] = viscous_stress(mu[static_cast<Eigen::Index>(k)], d) -
-                              pressure_.pressure(particles.density[p]) * Mat2::Identity();
+                              pressure_.pressure(advance_density(particles, p, d, dt)) * Mat2::Identity();
       }
     }
   }
 
   void compress(Particles& particles, const Grid& grid, const VectorField& nodal_velocity,
                 double dt) const override {
-    if constexpr (Pressure::varies) {
-      for (std::size_t p = 0; p < particles.size(); ++p) {
-        const Mat2 l = gradient<Basis>(grid, nodal_velocity, particles.position[p]);
-        particles.density[p] /= (1 + dt * l(0, 0)) * (1 + dt * l(1, 1)) - dt * dt * l(0, 1) * l(1, 0);
-      }
+    const auto ratio = [dt](const Mat2& l) {
+      return (1 + dt * l(0, 0)) * (1 + dt * l(1, 1)) - dt * dt * l(0, 1) * l(1, 0);
+    };
+    if constexpr (Pressure::is_of_cell) {
+      cells_.assign(pressure_, particles, grid, nodal_velocity, ratio);
+      for (std::size_t p = 0; p < particles.size(); ++p) particles.density[p] = cells_.of(p);
+    } else if constexpr (Pressure::varies) {
+      for (std::size_t p = 0; p < particles.size(); ++p)
+        particles.density[p] /= ratio(gradient<Basis>(grid, nodal_velocity, particles.position[p]));
     }
   }
 
@@ -81,6 +88,17 @@ class FluidStress final : public StressUpdate {
   static constexpr std::size_t block = 32;
   using Array = Eigen::Array<double, static_cast<int>(block), 1>;
 
+  /// Advances a particle's density by dt and returns the one that its pressure belongs to. With dt = 0 the
+  /// particles of a cell keep theirs: asking for the stress changes nothing.
+  double advance_density(Particles& particles, std::size_t p, const Mat2& d, double dt) const {
+    if constexpr (Pressure::is_of_cell) {
+      if (dt > 0) particles.density[p] = cells_.of(p);
+      return cells_.of(p);
+    } else {
+      return particles.density[p] = pressure_.advance_density(particles.density[p], d.trace(), dt);
+    }
+  }
+
   void viscosities(const std::array<Mat2, block>& strain_rate, std::size_t count, Array& mu) const {
     if constexpr (Rheology::needs_shear_rate) {
       Array gdot_squared = Array::Ones();  // lanes beyond `count` hold a harmless value
@@ -92,19 +110,27 @@ class FluidStress final : public StressUpdate {
     }
   }
 
+  struct Nothing {};
   Rheology rheology_;
   Pressure pressure_;
+  [[no_unique_address]] mutable std::conditional_t<Pressure::is_of_cell, CellDensities<Basis>, Nothing>
+      cells_;
 };
 
-/// The update that a fluid asks for, on a basis.
+/// The update that a scene's fluid and a scheme ask for, on a basis.
 template <class Basis>
-std::unique_ptr<StressUpdate> make_stress_update(const Fluid& fluid) {
+std::unique_ptr<StressUpdate> make_stress_update(const Scene& scene, const Scheme& scheme) {
+  const auto make = [&]<class Law, class Pressure>(const Law& law, const Pressure& pressure) {
+    return std::unique_ptr<StressUpdate>(std::make_unique<FluidStress<Basis, Law, Pressure>>(law, pressure));
+  };
+  const Fluid& fluid = scene.fluid;
+  const TaitPressure tait{fluid.bulk_modulus, 1 / fluid.density};
   return std::visit(
-      [&]<class Law>(const Law& law) -> std::unique_ptr<StressUpdate> {
-        if (fluid.pressure)
-          return std::make_unique<FluidStress<Basis, Law, TaitPressure>>(
-              law, TaitPressure{fluid.bulk_modulus, 1 / fluid.density});
-        return std::make_unique<FluidStress<Basis, Law, NoPressure>>(law, NoPressure{});
+      [&](const auto& law) {
+        if (!fluid.pressure) return make(law, NoPressure{});
+        if (scheme.dilatation == Scheme::Dilatation::Cell)
+          return make(law, CellTaitPressure{tait, scene.least_density()});
+        return make(law, tait);
       },
       fluid.rheology);
 }

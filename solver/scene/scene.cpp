@@ -27,8 +27,8 @@ Seeding::Rule seeding_named(const std::string& text) {
   throw SceneError("'" + text + "' is not known; choose one of: even, gauss");
 }
 
-Side Side::wall(const Vec2& v) {
-  return {false, [v](double) { return v; }, [](double) -> Vec2 { return Vec2::Zero(); }};
+Side Side::wall(const Vec2& v, double slip_length) {
+  return {false, [v](double) { return v; }, [](double) -> Vec2 { return Vec2::Zero(); }, slip_length};
 }
 
 double Fluid::sound_speed() const {
@@ -58,10 +58,37 @@ void Scene::validate() const {
   require(seeding.displacement >= 0 && seeding.displacement <= 0.5, "the displacement must lie in [0, 0.5]");
   for (const Side& s : sides)
     require(s.periodic || (s.velocity && s.acceleration), "a wall needs a velocity and an acceleration");
+  for (const Side& s : sides) {
+    require(s.slip_length >= 0, "a wall's slip length must not be negative");
+    require(s.slip_length == 0 || !std::isfinite(s.slip_length) ||
+                std::holds_alternative<Newtonian>(fluid.rheology),
+            "a wall with a finite slip length needs a Newtonian fluid; let others stick or slip freely");
+  }
+  require(!free_surface || free_surface->is_fluid, "a free surface needs the region that the fluid fills");
+  require(!free_surface || fluid.pressure, "a fluid with a free surface needs its pressure");
   require(positive(fluid.density), "the density must be positive and finite");
   require(!fluid.pressure || positive(fluid.bulk_modulus), "the bulk modulus must be positive and finite");
   const double nu = fluid.largest_kinematic_viscosity();
   require(std::isfinite(nu) && nu >= 0, "the viscosity must be finite and not negative");
+}
+
+void check_together(const Scene& scene, const Scheme& scheme) {
+  using Stepping = Scheme::Stepping;
+  const bool is_cell = scheme.dilatation == Scheme::Dilatation::Cell;
+  require(!is_cell || scene.fluid.pressure,
+          "dilatation 'cell' is for fluids with pressure: without it no density changes");
+  require(!scene.free_surface || is_cell, "a free surface needs the scheme's dilatation = 'cell'");
+  const bool is_simple = scheme.transfer != Scheme::Transfer::FullMass && !scheme.resets() &&
+                         (scheme.stepping == Stepping::Usf || scheme.stepping == Stepping::Usl ||
+                          scheme.stepping == Stepping::Musl);
+  require(!scene.free_surface || is_simple,
+          "a free surface needs a transfer with lumped mass, stepping usf, usl or musl, and no reset of "
+          "particles");
+  for (const Side& s : scene.sides)
+    require(
+        s.slip_length == 0 || is_simple,
+        "a wall that lets the fluid slip needs a transfer with lumped mass, stepping usf, usl or musl, and "
+        "no reset of particles");
 }
 
 }  // namespace mpm

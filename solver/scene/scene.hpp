@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -17,16 +18,19 @@ class SceneError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// One side of the rectangular domain: joined to the opposite side, or a no-slip wall with a given motion.
+/// One side of the rectangular domain: joined to the opposite side, or a wall with a given motion.
 struct Side {
   bool periodic = true;
   std::function<Vec2(double)> velocity;  ///< of the wall at time t [m/s]
   std::function<Vec2(double)>
       acceleration;  ///< its derivative [m/s2]; an impulsive start does not appear in it
+  /// Navier's slip length b [m]: along the wall the fluid feels mu (V - v)/b. 0: it sticks; infinite: it
+  /// slips freely.
+  double slip_length = 0;
 
   static Side joined() { return {}; }
   /// A wall that has moved with constant velocity [m/s] since t = 0.
-  static Side wall(const Vec2& v);
+  static Side wall(const Vec2& v, double slip_length = 0);
 };
 
 enum class Edge { Left, Right, Bottom, Top };
@@ -63,7 +67,17 @@ struct Seeding {
 std::string name(Seeding::Rule rule);
 Seeding::Rule seeding_named(const std::string& text);
 
-/// What is simulated: the rectangle [0, size.x] x [0, size.y] full of fluid. SI units.
+/// A fluid that fills a part of the domain only. It bears no tension: no density falls below the reference
+/// density, so that what is torn apart leaves no force behind. Nodes that hold less than `least_fill` of the
+/// mass of a full one feel the stress in proportion to their mass: where a function ends just inside the
+/// fluid its slope is finite, and f_i/m_i would be without bound.
+struct FreeSurface {
+  std::function<bool(const Vec2&)> is_fluid;  ///< whether fluid stands at a point [m] at the start
+  static constexpr double least_fill = 1e-3;
+};
+
+/// What is simulated: the rectangle [0, size.x] x [0, size.y], full of fluid unless it has a free surface. SI
+/// units.
 struct Scene {
   Vec2 size{1, 1};                              ///< [m]
   std::array<int, 2> cells{1, 1};               ///< background cells along x, y
@@ -71,6 +85,7 @@ struct Scene {
   Seeding seeding;
   std::array<Side, 4> sides;  ///< indexed by Edge
   Fluid fluid;
+  std::optional<FreeSurface> free_surface;
   std::function<Vec2(double)> body_acceleration;  ///< uniform, at time t [m/s2]; none when empty
   /// Acceleration that varies in space [m/s2], written for all points [m] at time t in one call; none when
   /// empty.
@@ -85,10 +100,19 @@ struct Scene {
     return size[axis] / cells[static_cast<std::size_t>(axis)];
   }
   [[nodiscard]] double smallest_cell_size() const;
+  /// Below which no density falls [kg/m3].
+  [[nodiscard]] double least_density() const { return free_surface ? fluid.density : 0; }
+  /// Of a node, below which it feels the stress in proportion to its mass [kg/m].
+  [[nodiscard]] double least_nodal_mass() const {
+    return free_surface ? FreeSurface::least_fill * fluid.density * cell_size(0) * cell_size(1) : 0;
+  }
   [[nodiscard]] bool periodic(int axis) const { return sides[axis == 0 ? 0 : 2].periodic; }
 
   /// Throws SceneError when the scene cannot be simulated.
   void validate() const;
 };
+
+/// Throws SceneError when a scheme, both valid by themselves, cannot run a scene.
+void check_together(const Scene& scene, const Scheme& scheme);
 
 }  // namespace mpm

@@ -30,6 +30,11 @@ void Scheme::validate() const {
   if (reset_every < 0) throw SceneError("reset_every must not be negative");
   if (!(reset_strain >= 0 && std::isfinite(reset_strain)))
     throw SceneError("reset_strain must be finite and not negative");
+  if (dilatation == Dilatation::Cell && transfer == Transfer::FullMass &&
+      (stepping == Stepping::Leapfrog || stepping == Stepping::ImplicitSdirk2))
+    throw SceneError("dilatation 'cell' does not go with full-mass and " + name(stepping) +
+                     ", whose particles carry their own gradient; use 'particle', or another transfer or "
+                     "stepping");
 }
 
 const std::vector<SchemePart>& basis_parts() {
@@ -65,6 +70,14 @@ const std::vector<SchemePart>& stepping_parts() {
   return parts;
 }
 
+const std::vector<SchemePart>& dilatation_parts() {
+  static const std::vector<SchemePart> parts = {
+      {"particle", "density follows the dilatation at each particle, as in the paper"},
+      {"cell", "one dilatation and one density a cell: densities cannot drift away from where particles are"},
+  };
+  return parts;
+}
+
 std::string name(Scheme::Basis basis) {
   return name_in(basis_parts(), basis);
 }
@@ -73,6 +86,9 @@ std::string name(Scheme::Transfer transfer) {
 }
 std::string name(Scheme::Stepping stepping) {
   return name_in(stepping_parts(), stepping);
+}
+std::string name(Scheme::Dilatation dilatation) {
+  return name_in(dilatation_parts(), dilatation);
 }
 std::string reset_name(const Scheme& scheme) {
   if (!scheme.resets()) return "never";
@@ -94,6 +110,9 @@ Scheme::Transfer transfer_named(const std::string& text) {
 }
 Scheme::Stepping stepping_named(const std::string& text) {
   return value_in<Scheme::Stepping>(stepping_parts(), text);
+}
+Scheme::Dilatation dilatation_named(const std::string& text) {
+  return value_in<Scheme::Dilatation>(dilatation_parts(), text);
 }
 
 FormalOrder formal_order(const Scheme& scheme) {

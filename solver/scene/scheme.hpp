@@ -11,9 +11,13 @@ struct Scheme {
   enum class Basis { Linear, Quadratic, Cubic };
   enum class Transfer { Flip, Pic, FlipBlend, Apic, FullMass };
   enum class Stepping { Usf, Usl, Musl, Leapfrog, ImplicitEuler, ImplicitSdirk2 };
+  /// What the density of a particle follows: the dilatation at its place, or that of its cell, whose
+  /// particles then share one density (solver/material/cell_dilatation.hpp).
+  enum class Dilatation { Particle, Cell };
   Basis basis = Basis::Linear;
   Transfer transfer = Transfer::Flip;
   Stepping stepping = Stepping::Usf;
+  Dilatation dilatation = Dilatation::Particle;
   double flip_fraction = 0.95;  ///< FlipBlend only: 1 is FLIP, 0 is PIC
   /// Particles return to their lattice (solver/transfer/particle_reset.hpp) after this many steps; 0: never.
   int reset_every = 0;
@@ -23,7 +27,8 @@ struct Scheme {
 
   [[nodiscard]] bool resets() const { return reset_every > 0 || reset_strain > 0; }
 
-  /// Throws SceneError for a fraction outside [0, 1], or a negative or infinite reset.
+  /// Throws SceneError for a fraction outside [0, 1], a negative or infinite reset, or a dilatation of cells
+  /// beside particles that carry their own gradient (full mass in steps of second order).
   void validate() const;
 };
 
@@ -33,21 +38,24 @@ struct SchemePart {
   std::string description;  ///< one line
 };
 
-/// Every basis, transfer and stepping in the order of their enumerations.
+/// Every basis, transfer, stepping and dilatation in the order of their enumerations.
 const std::vector<SchemePart>& basis_parts();
 const std::vector<SchemePart>& transfer_parts();
 const std::vector<SchemePart>& stepping_parts();
+const std::vector<SchemePart>& dilatation_parts();
 
 /// Name of a scheme's part, e.g. "linear"; and back (throws SceneError listing the known names).
 std::string name(Scheme::Basis basis);
 std::string name(Scheme::Transfer transfer);
 std::string name(Scheme::Stepping stepping);
+std::string name(Scheme::Dilatation dilatation);
 /// When a scheme resets its particles: "never", "every 25 steps", "every strain of 0.5", or both joined by
 /// "or".
 std::string reset_name(const Scheme& scheme);
 Scheme::Basis basis_named(const std::string& text);
 Scheme::Transfer transfer_named(const std::string& text);
 Scheme::Stepping stepping_named(const std::string& text);
+Scheme::Dilatation dilatation_named(const std::string& text);
 
 /// Powers of h and dt that theory gives the error of a scheme, for a smooth shear flow along frozen particle
 /// rows.

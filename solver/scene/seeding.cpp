@@ -91,6 +91,7 @@ Particles seed_particles(const Scene& scene) {
         for (int axis : {0, 1})
           x[axis] = put_back(x[axis] + reach[axis] * random_sign_and_size(generator), scene.size[axis],
                              scene.periodic(axis));
+      if (scene.free_surface && !scene.free_surface->is_fluid(x)) continue;
       particles.position.push_back(x);
       particles.velocity.push_back(scene.initial_velocity ? scene.initial_velocity(x) : Vec2(Vec2::Zero()));
       const double density = scene.initial_density ? scene.initial_density(x) : scene.fluid.density;
@@ -99,6 +100,7 @@ Particles seed_particles(const Scene& scene) {
       particles.stress.push_back(Mat2::Zero());
     }
   }
+  if (particles.size() == 0) throw SceneError("no particle lies in the region that the fluid fills");
   return particles;
 }
 

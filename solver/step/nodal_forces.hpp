@@ -42,4 +42,34 @@ void add_stress_forces(Grid& grid, const Particles& particles) {
   }
 }
 
+/// The same with the mean stress at the centres of the cells, the sums over their particles in `tension`
+/// (solver/material/cell_dilatation.hpp).
+template <class Basis>
+void add_cell_stress_forces(Grid& grid, const Particles& particles, ScalarField& tension) {
+  tension.assign(static_cast<std::size_t>(grid.x.cells) * static_cast<std::size_t>(grid.y.cells), 0);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Vec2& x = particles.position[p];
+    const Mat2 volume_stress = (particles.mass[p] / particles.density[p]) * particles.stress[p];
+    const double mean = 0.5 * volume_stress.trace();
+    tension[static_cast<std::size_t>(grid.y.cell_of(x.y()) * grid.x.cells + grid.x.cell_of(x.x()))] += mean;
+    const Mat2 deviator = volume_stress - mean * Mat2::Identity();
+    Stencil<Basis>(grid, x).gradients([&](std::size_t i, const Vec2& dn) { grid.force[i] -= deviator * dn; });
+  }
+  for (int j = 0; j < grid.y.cells; ++j)
+    for (int i = 0; i < grid.x.cells; ++i) {
+      const double mean = tension[static_cast<std::size_t>(j * grid.x.cells + i)];
+      if (mean == 0) continue;
+      Stencil<Basis>(grid, Vec2((i + 0.5) * grid.x.h, (j + 0.5) * grid.y.h))
+          .gradients([&](std::size_t node, const Vec2& dn) { grid.force[node] -= mean * dn; });
+    }
+}
+
+/// Nodes lighter than `least` [kg/m] feel the other forces than m_i b in proportion to their mass.
+inline void relieve_light_nodes(Grid& grid, const Vec2& b, double least) {
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const double m = grid.mass[i];
+    if (m < least) grid.force[i] = m * b + (m / least) * (grid.force[i] - m * b);
+  }
+}
+
 }  // namespace mpm

@@ -28,7 +28,8 @@ class Passes {
         grid_(scene_, Basis::degree),
         walls_(scene_, grid_),
         mass_(grid_, walls_),
-        update_stress_(make_stress_update<Basis>(scene.fluid)) {
+        has_cell_dilatation_(scheme.dilatation == Scheme::Dilatation::Cell),
+        update_stress_(make_stress_update<Basis>(scene, scheme)) {
     using Stepping = Scheme::Stepping;
     if (scheme.stepping == Stepping::ImplicitEuler || scheme.stepping == Stepping::ImplicitSdirk2)
       implicit_viscosity_ = make_implicit_viscosity(scene.fluid.rheology, grid_, walls_);
@@ -107,14 +108,18 @@ class Passes {
   /// Body forces at time t [s], and those of the particles' stress.
   void forces(double t) {
     std::fill(grid_.force.begin(), grid_.force.end(), Vec2::Zero());
-    body_force_ =
-        add_body_forces(grid_, scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero()));
+    const Vec2 body = scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero());
+    body_force_ = add_body_forces(grid_, body);
     if (scene_.acceleration_field) {
       particle_acceleration_.resize(particles_.size());
       scene_.acceleration_field(particles_.position, t, particle_acceleration_);
       body_force_ += add_particle_forces<Basis>(grid_, particles_, particle_acceleration_);
     }
-    add_stress_forces<Basis>(grid_, particles_);
+    if (has_cell_dilatation_)
+      add_cell_stress_forces<Basis>(grid_, particles_, cell_tension_);
+    else
+      add_stress_forces<Basis>(grid_, particles_);
+    if (scene_.free_surface) relieve_light_nodes(grid_, body, scene_.least_nodal_mass());
   }
 
   /// Density over dt and stress from the nodal velocity; dt = 0 sets the stress of the present state.
@@ -125,6 +130,7 @@ class Passes {
   /// a = M^-1 f, prescribed on walls; then v_i += dt a_i.
   void accelerate(double t, double dt) {
     solve_acceleration([&](VectorField& a) { walls_.impose_acceleration(a, t); });
+    walls_.add_drag(grid_, t, dt);
     impulse_ += dt * (body_force_ + mass_.wall_force(grid_, walls_));
     for (std::size_t i = 0; i < grid_.size(); ++i) grid_.velocity[i] += dt * grid_.acceleration[i];
   }
@@ -277,6 +283,8 @@ class Passes {
   WallNodes walls_;
   Mass mass_;
   StencilTable table_;
+  bool has_cell_dilatation_;
+  ScalarField cell_tension_;
   std::unique_ptr<StressUpdate> update_stress_;
   std::optional<ParticleReset<Basis, Transfer>> reset_;
   std::unique_ptr<ImplicitViscosity> implicit_viscosity_;

@@ -13,7 +13,7 @@ std::unique_ptr<Simulation> make_solver_on(const Scene& scene, const Scheme& sch
     const double flip = scheme.transfer == Scheme::Transfer::Flip  ? 1
                         : scheme.transfer == Scheme::Transfer::Pic ? 0
                                                                    : scheme.flip_fraction;
-    return std::make_unique<LaneSolver<Basis>>(scene, scheme.stepping, flip, threads);
+    return std::make_unique<LaneSolver<Basis>>(scene, scheme, flip, threads);
   }
   const auto make = [&]<class Transfer>(const Transfer& transfer) -> std::unique_ptr<Simulation> {
     return std::make_unique<Solver<Basis, Transfer>>(scene, scheme, transfer);

@@ -186,6 +186,40 @@ double velocity_error(const RunData& run, double t, Location location) {
   return nan;
 }
 
+// ---- a fluid with a free surface
+
+/// Largest coordinate along an axis of the particles with x < below, to the edge of what a particle fills.
+double reach(const RunData& run, double t, int axis, double below) {
+  const SceneConfig& scene = run.plan->scene;
+  double largest = nan;
+  for (const reports::ProfileRow* row : rows_at(run, t, Location::Particles)) {
+    const double x = axis == 0 ? row->x : row->y;
+    if (row->x < below && !(x <= largest)) largest = x;
+  }
+  const auto a = static_cast<std::size_t>(axis);
+  return largest + 0.5 * scene.scene.cell_size(axis) / scene.scene.particles_per_cell[a];
+}
+
+double front(const RunData& run, double t) {
+  return reach(run, t, 0, std::numeric_limits<double>::infinity());
+}
+
+/// Least-squares slope of the front over the output times [m/s].
+double front_slope(const RunData& run) {
+  const std::vector<double>& times = run.plan->scene.outputs;
+  double t_mean = 0, x_mean = 0, covariance = 0, variance = 0;
+  if (!run.completed() || times.size() < 2) return nan;
+  for (const double t : times) {
+    t_mean += t / static_cast<double>(times.size());
+    x_mean += front(run, t) / static_cast<double>(times.size());
+  }
+  for (const double t : times) {
+    covariance += (t - t_mean) * (front(run, t) - x_mean);
+    variance += (t - t_mean) * (t - t_mean);
+  }
+  return covariance / variance;
+}
+
 // ---- motion where there should be none
 
 /// Largest root mean square velocity of the particles between two fractions of the history [m/s].
@@ -259,6 +293,13 @@ const std::vector<Entry> entries = {
      [](const Quantity& q, const RunData& r) { return velocity_error(r, q.time, Location::Grid); }},
     {"particle-error", "1", true, false,
      [](const Quantity& q, const RunData& r) { return velocity_error(r, q.time, Location::Particles); }},
+    {"front", "m", true, false, [](const Quantity& q, const RunData& r) { return front(r, q.time); }},
+    {"front-slope", "1", false, false,
+     [](const Quantity&, const RunData& r) { return front_slope(r) / r.plan->scene.flow->velocity_scale(); }},
+    {"column-height", "m", true, false,
+     [](const Quantity& q, const RunData& r) {
+       return reach(r, q.time, 1, r.plan->scene.scene.cell_size(0));
+     }},
     {"largest-speed", "1", false, false,
      [](const Quantity&, const RunData& r) {
        return largest_speed(r, 0, 1) / r.plan->scene.flow->velocity_scale();

@@ -1,20 +1,27 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <functional>
 #include <limits>
 
+#include "reference/compressible/tait_column.hpp"
 #include "verification/flows/flow.hpp"
 
 namespace verification {
 
-/// A rectangle of fluid with any sides, body acceleration and uniform initial velocity, for which no exact
-/// solution is known: runs of it are recorded, not judged against a solution.
+/// A rectangle with any sides, body acceleration and uniform initial velocity, full of fluid or with a part
+/// of it, for which no exact solution is known: runs of it are recorded, not judged against a solution.
 struct BoxParameters {
-  Vec2 size{0, 0};                        ///< [m]
-  std::array<mpm::Side, 4> sides;         ///< indexed by mpm::Edge
-  Vec2 body_acceleration = Vec2::Zero();  ///< [m/s2]
-  Vec2 initial_velocity = Vec2::Zero();   ///< [m/s]
-  double velocity_scale = 0;              ///< [m/s]
+  Vec2 size{0, 0};                            ///< [m]
+  std::array<mpm::Side, 4> sides;             ///< indexed by mpm::Edge
+  Vec2 body_acceleration = Vec2::Zero();      ///< [m/s2]
+  Vec2 initial_velocity = Vec2::Zero();       ///< [m/s]
+  double velocity_scale = 0;                  ///< [m/s]
+  std::function<bool(const Vec2&)> is_fluid;  ///< the part that fluid fills at the start; all when empty
+  /// Height up to which it stands in hydrostatic equilibrium at the start under the acceleration along y [m];
+  /// NaN: at the reference density.
+  double surface = std::numeric_limits<double>::quiet_NaN();
   mpm::Fluid fluid;
 };
 
@@ -31,6 +38,12 @@ class BoxFlow final : public Flow {
     scene.body_acceleration = [b = parameters_.body_acceleration](double) { return b; };
     scene.initial_velocity = [v = parameters_.initial_velocity](const Vec2&) { return v; };
     scene.fluid = parameters_.fluid;
+    if (parameters_.is_fluid) scene.free_surface = mpm::FreeSurface{parameters_.is_fluid};
+    if (std::isfinite(parameters_.surface)) {
+      const reference::TaitColumn column({parameters_.surface, -parameters_.body_acceleration.y(),
+                                          parameters_.fluid.sound_speed(), parameters_.fluid.density});
+      scene.initial_density = [column](const Vec2& x) { return column.density(x.y()); };
+    }
     return scene;
   }
   [[nodiscard]] bool has_exact() const override { return false; }

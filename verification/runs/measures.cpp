@@ -120,11 +120,16 @@ std::vector<const reports::ProfileRow*> rows_at(const RunData& run, double t, Lo
 
 std::vector<reports::ErrorRecord> measure_errors(const RunData& run) {
   std::vector<reports::ErrorRecord> records;
+  const bool is_tabulated = !run.plan->scene.flow->tabulated_points().empty();
   for (const double t : run.plan->scene.outputs) {
     for (const Location location : {Location::Grid, Location::Particles}) {
       std::vector<Eigen::Vector2d> errors;
       for (const reports::ProfileRow* row : rows_at(run, t, location))
-        errors.emplace_back(row->u - row->u_exact, row->v - row->v_exact);
+        if (!is_tabulated || location == Location::Particles)
+          errors.emplace_back(row->u - row->u_exact, row->v - row->v_exact);
+        else
+          errors.emplace_back(std::isnan(row->u_exact) ? 0 : row->u - row->u_exact,
+                              std::isnan(row->v_exact) ? 0 : row->v - row->v_exact);
       const Norms norms = norms_or_nan(errors, run.plan->scene.flow->velocity_scale_at(t));
       records.push_back({run.record.run, t, name(location), norms.l1, norms.l2, norms.linf});
     }

@@ -5,12 +5,13 @@ namespace verification {
 reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long steps,
                                 const std::string& status) {
   const SceneConfig& scene = plan.scene;
+  const bool is_cell = scene.scheme.dilatation == mpm::Scheme::Dilatation::Cell;
   return {plan.run,
           study.name,
           scene.flow_name,
           scene.fluid.label,
           mpm::name(scene.scheme.basis),
-          mpm::name(scene.scheme.transfer),
+          mpm::name(scene.scheme.transfer) + (is_cell ? ", cell dilatation" : ""),
           mpm::name(scene.scheme.stepping),
           scene.discretisation.cells,
           scene.particles(),

@@ -1,11 +1,14 @@
 #include "verification/scene/flow_reader.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "verification/flows/box_flow.hpp"
 #include "verification/flows/channel/channel_flow.hpp"
 #include "verification/flows/channel/oscillating_channel_flow.hpp"
+#include "verification/flows/vortices/lid_driven_cavity_flow.hpp"
 #include "verification/flows/vortices/manufactured_flow.hpp"
 #include "verification/flows/vortices/taylor_green_flow.hpp"
 #include "verification/flows/waves/dilatation_flow.hpp"
@@ -148,6 +151,17 @@ FlowPointer read_taylor_green(TomlTable& table, const FluidConfig& fluid) {
   return std::make_shared<TaylorGreenFlow>(p);
 }
 
+FlowPointer read_cavity(TomlTable& table, const FluidConfig& fluid) {
+  if (!fluid.solver.pressure)
+    table.fail("flow", "a cavity needs fluid.pressure = true: pressure balances its advection");
+  LidDrivenCavityParameters p{table.positive("side"), table.positive("lid_velocity"),
+                              newtonian_viscosity(table, fluid), fluid.solver};
+  if (p.lid_velocity >= 0.5 * p.fluid.sound_speed())
+    table.fail("lid_velocity",
+               "must be below half the speed of sound sqrt(7 K/rho0): the tables are of incompressible flow");
+  return std::make_shared<LidDrivenCavityFlow>(p);
+}
+
 FlowPointer read_manufactured(TomlTable& table, const FluidConfig& fluid) {
   reference::ManufacturedParameters p;
   p.height = table.positive("height");
@@ -168,6 +182,51 @@ mpm::Side read_side(TomlTable& table, const std::string& key) {
   return mpm::Side::wall(read_vector(table, key));
 }
 
+/// Rectangles, polygons and half-planes, together.
+std::function<bool(const Vec2&)> read_regions(TomlTable& scene) {
+  std::vector<std::function<bool(const Vec2&)>> regions;
+  for (TomlTable& table : scene.tables("fluid_region")) {
+    if (table.has("rectangle")) {
+      const std::vector<double> r = table.numbers("rectangle");
+      if (r.size() != 4 || !(r[0] < r[2] && r[1] < r[3]))
+        table.fail("rectangle", "must be [left, bottom, right, top] of some extent [m]");
+      regions.push_back(
+          [r](const Vec2& x) { return x.x() > r[0] && x.y() > r[1] && x.x() < r[2] && x.y() < r[3]; });
+    } else if (table.has("polygon")) {
+      const std::vector<double> c = table.numbers("polygon");
+      if (c.size() < 6 || c.size() % 2 != 0)
+        table.fail("polygon", "must be the corners [x1, y1, x2, y2, x3, y3, ...], three at least [m]");
+      regions.push_back([c](const Vec2& x) {  // a ray along x crosses the outline an odd number of times
+        bool inside = false;
+        for (std::size_t i = 0, j = c.size() - 2; i < c.size(); j = i, i += 2)
+          if ((c[i + 1] > x.y()) != (c[j + 1] > x.y()) &&
+              x.x() < c[i] + (c[j] - c[i]) * (x.y() - c[i + 1]) / (c[j + 1] - c[i + 1]))
+            inside = !inside;
+        return inside;
+      });
+    } else if (table.has("below")) {
+      const std::vector<double> r = table.numbers("below");
+      if (r.size() != 4 || (r[2] == 0 && r[3] == 0))
+        table.fail("below", "must be a half-plane [x, y, nx, ny]: a point of its edge, the normal out of it");
+      regions.push_back([r](const Vec2& x) { return (x.x() - r[0]) * r[2] + (x.y() - r[1]) * r[3] < 0; });
+    } else {
+      table.fail("rectangle", "is missing; a [[scene.fluid_region]] is a rectangle, a polygon or below");
+    }
+    table.refuse_unknown_keys();
+  }
+  if (regions.empty()) return nullptr;
+  return [regions](const Vec2& x) {
+    return std::any_of(regions.begin(), regions.end(), [&](const auto& is_inside) { return is_inside(x); });
+  };
+}
+
+/// Slip length of a wall [m]: none when absent, free above any length.
+void read_slip(TomlTable& table, const std::string& key, mpm::Side& side) {
+  if (!table.has(key)) return;
+  if (side.periodic) table.fail(key, "needs a wall on that side");
+  side.slip_length = table.positive(key);
+}
+
 FlowPointer read_box(TomlTable& table, const FluidConfig& fluid) {
   BoxParameters p;
   p.size = {table.positive("width"), table.positive("height")};
@@ -175,9 +234,33 @@ FlowPointer read_box(TomlTable& table, const FluidConfig& fluid) {
   p.sides = {read_side(walls, "left"), read_side(walls, "right"), read_side(walls, "bottom"),
              read_side(walls, "top")};
   walls.refuse_unknown_keys();
+  const std::pair<const char*, mpm::Edge> edges[] = {{"left", mpm::Edge::Left},
+                                                     {"right", mpm::Edge::Right},
+                                                     {"bottom", mpm::Edge::Bottom},
+                                                     {"top", mpm::Edge::Top}};
+  std::vector<std::string> free;
+  if (table.has("slip")) free = table.texts("slip");
+  TomlTable lengths = table.table("slip_length");
+  for (const auto& [name, edge] : edges) {
+    mpm::Side& side = p.sides[static_cast<std::size_t>(edge)];
+    read_slip(lengths, name, side);
+    if (std::erase(free, name) == 0) continue;
+    if (side.periodic || side.slip_length > 0)
+      table.fail("slip", std::string(name) + " must be a wall, and have no slip_length beside");
+    side.slip_length = std::numeric_limits<double>::infinity();
+  }
+  if (!free.empty()) table.fail("slip", "may name left, right, bottom and top, each once: not " + free[0]);
+  lengths.refuse_unknown_keys();
   if (table.has("body_acceleration")) p.body_acceleration = read_vector(table, "body_acceleration");
   if (table.has("initial_velocity")) p.initial_velocity = read_vector(table, "initial_velocity");
   p.velocity_scale = table.positive("velocity_scale");
+  p.is_fluid = read_regions(table);
+  if (table.has("hydrostatic_surface")) {
+    p.surface = table.positive("hydrostatic_surface");
+    if (!p.is_fluid || !fluid.solver.pressure || !(p.body_acceleration.y() < 0))
+      table.fail("hydrostatic_surface",
+                 "needs a [[scene.fluid_region]], fluid.pressure = true and a downward body_acceleration");
+  }
   p.fluid = fluid.solver;
   return std::make_shared<BoxFlow>(p);
 }
@@ -199,6 +282,7 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
       {"oscillating-plate", [](TomlTable& t, const FluidConfig& f) { return read_oscillating(t, f, true); }},
       {"womersley", [](TomlTable& t, const FluidConfig& f) { return read_oscillating(t, f, false); }},
       {"taylor-green", read_taylor_green},
+      {"lid-driven-cavity", read_cavity},
       {"manufactured", read_manufactured},
       {"box", read_box},
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/scene/seeding.hpp"
 #include "verification/config/config_error.hpp"
 
 namespace verification {
@@ -49,6 +50,7 @@ mpm::Scheme read_scheme(TomlTable table) {
   scheme.basis = read_named(table, "basis", "linear", mpm::basis_named);
   scheme.transfer = read_named(table, "transfer", "flip", mpm::transfer_named);
   scheme.stepping = read_named(table, "stepping", "usf", mpm::stepping_named);
+  scheme.dilatation = read_named(table, "dilatation", "particle", mpm::dilatation_named);
   if (scheme.transfer == mpm::Scheme::Transfer::FlipBlend) {
     scheme.flip_fraction = table.number("flip_fraction", scheme.flip_fraction);
     if (!(scheme.flip_fraction >= 0 && scheme.flip_fraction <= 1))
@@ -59,6 +61,11 @@ mpm::Scheme read_scheme(TomlTable table) {
     table.fail("reset_every", "must not be negative: steps between resets, 0 for none");
   if (table.has("reset_strain")) scheme.reset_strain = table.positive("reset_strain");
   table.refuse_unknown_keys();
+  try {
+    scheme.validate();
+  } catch (const mpm::SceneError& error) {
+    table.fail("dilatation", error.what());
+  }
   return scheme;
 }
 
@@ -119,6 +126,7 @@ std::vector<double> SceneConfig::reference_times() const {
 }
 
 long SceneConfig::particles() const {
+  if (scene.free_surface) return static_cast<long>(mpm::seed_particles(scene).size());
   return static_cast<long>(scene.cells[0]) * scene.cells[1] * scene.particles_per_cell[0] *
          scene.particles_per_cell[1];
 }
@@ -163,6 +171,7 @@ SceneConfig read_scene_config(TomlTable root) {
     config.scene.seeding = seeding;
     config.scene.start = config.start;
     config.scene.validate();
+    mpm::check_together(config.scene, config.scheme);
   } catch (const mpm::SceneError& error) {
     root.fail("scene", error.what());
   }

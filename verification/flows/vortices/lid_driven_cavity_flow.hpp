@@ -1,0 +1,37 @@
+#pragma once
+
+#include "verification/flows/flow.hpp"
+
+namespace verification {
+
+/// The square cavity [0, L]^2 whose lid, y = L, moves along x with U from t = 0. The steady flow is known at
+/// the points of published tables alone, one component at each: there grid velocities are compared.
+struct LidDrivenCavityParameters {
+  double side = 0;                 ///< L [m]
+  double lid_velocity = 0;         ///< U [m/s]
+  double kinematic_viscosity = 0;  ///< [m2/s]
+  mpm::Fluid fluid;
+};
+
+class LidDrivenCavityFlow final : public Flow {
+ public:
+  explicit LidDrivenCavityFlow(const LidDrivenCavityParameters& parameters) : parameters_(parameters) {}
+
+  [[nodiscard]] mpm::Scene scene(const Discretisation& discretisation) const override;
+  [[nodiscard]] bool has_exact() const override;
+  [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const override;
+  [[nodiscard]] mpm::VectorField tabulated_points() const override;
+  [[nodiscard]] double velocity_scale() const override { return parameters_.lid_velocity; }
+  [[nodiscard]] Probe probe() const override { return {Vec2(0.5, 0.5) * parameters_.side, Vec2(1, 0)}; }
+  [[nodiscard]] int across() const override { return 1; }
+  [[nodiscard]] double length() const override { return parameters_.side; }
+
+ private:
+  [[nodiscard]] double reynolds() const {
+    return parameters_.lid_velocity * parameters_.side / parameters_.kinematic_viscosity;
+  }
+
+  LidDrivenCavityParameters parameters_;
+};
+
+}  // namespace verification
