@@ -176,11 +176,12 @@ StabilityPlan read_stability(TomlTable table, const std::vector<MatrixEntry>& ma
   for (const MatrixEntry& entry : matrix)
     for (const Waves wave : waves)
       for (const Passage passage : passages)
-        plan.cases.push_back({entry.variant,
-                              {mpm::basis_named(entry.basis), mpm::transfer_named(entry.transfer),
-                               mpm::stepping_named(entry.stepping), entry.flip_fraction},
-                              wave,
-                              passage});
+        plan.cases.push_back(
+            {entry.variant,
+             {mpm::basis_named(entry.basis), mpm::transfer_named(entry.transfer),
+              mpm::stepping_named(entry.stepping), mpm::Scheme::Dilatation::Particle, entry.flip_fraction},
+             wave,
+             passage});
   return plan;
 }
 
