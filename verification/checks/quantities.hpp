@@ -32,7 +32,8 @@ struct Quantity {
 /// - density-error [1]: largest |rho - exact|/exact over the particles at a time
 /// - path-error [cells]: largest distance of a particle from its exact place at a time
 /// - grid-error, particle-error [1]: relative L2 error of velocity at a time
-/// - front [m]: largest x that the fluid reaches at a time; column-height [m]: largest y in the first column of
+/// - front [m]: largest x that the fluid reaches at a time; column-height [m]: largest y in the first column
+/// of
 ///   cells at a time
 /// - front-slope [1]: slope of the front over the output times, relative to the velocity scale
 /// - largest-speed [1]: largest root mean square velocity of the particles over the history, relative to the

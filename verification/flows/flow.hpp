@@ -93,8 +93,8 @@ class Flow {
     return std::nullopt;
   }
 
-  /// Where exact() is known, of flows known at the points of a table alone [m]: there the grid field is taken,
-  /// and components of which exact() is NaN are not compared. Empty for flows known everywhere.
+  /// Where exact() is known, of flows known at the points of a table alone [m]: there the grid field is
+  /// taken, and components of which exact() is NaN are not compared. Empty for flows known everywhere.
   [[nodiscard]] virtual mpm::VectorField tabulated_points() const { return {}; }
 
   /// The exact solution of the Newtonian USF linear FLIP scheme itself, for steps of dt [s]; null where none

@@ -114,14 +114,18 @@ TEST_CASE("partial slip: a Couette flow between plates of slip length b is stead
   scene.side(Edge::Bottom) = Side::wall(Vec2::Zero(), b);
   scene.side(Edge::Top) = Side::wall(Vec2(v, 0), b);
   scene.fluid.rheology = Newtonian{1e-3};
-  scene.fluid.pressure = GENERATE(true, false);
+  scene.fluid.pressure = false;
   const auto exact = [=](double y) { return v * (y + b) / (1e-3 + 2 * b); };
-  scene.initial_velocity = [=](const Vec2& x) { return Vec2(exact(x.y()), 0); };
-  const auto simulation = make_simulation(scene, {});
-  for (int k = 0; k < 2000; ++k) simulation->advance(k * 2e-5, 2e-5);
-  for (std::size_t p = 0; p < simulation->particles().size(); ++p)
-    CHECK(std::abs(simulation->particles().velocity[p].x() - exact(simulation->particles().position[p].y())) <
-          1e-9 * v);
+  scene.initial_velocity = [=](const Vec2& x) { return Vec2(exact(x.y()) + 0.1 * v, 0); };
+  Scheme scheme;
+  scheme.transfer = GENERATE(Scheme::Transfer::Flip, Scheme::Transfer::Apic);
+  const auto simulation = make_simulation(scene, scheme);
+  const double dt = 4e-4;  // nu dt/h^2 = 0.1
+  for (int k = 0; k < 15000; ++k) simulation->advance(k * dt, dt);
+  // The nodes are exact, as those of walls that hold the fluid; what FLIP's particles keep beside is the
+  // smoothing of the field's kink at the wall.
+  for (const Vec2& x : cell_corners(scene))
+    CHECK(std::abs(simulation->grid_field({x}, 0).front().x() - exact(x.y())) < 1e-10 * v);
 }
 
 TEST_CASE("free surface: what it cannot go with is refused") {

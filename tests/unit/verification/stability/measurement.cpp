@@ -160,7 +160,7 @@ TEST_CASE("the automatic step is half of what a scheme bears, and never large") 
     CHECK(rule.cfl_acoustic <= std::min(0.5, 0.5 * limit.acoustic));
   }
   scene.particles_per_cell = {1, 2};
-  const Scheme full_mass{Scheme::Basis::Linear, Scheme::Transfer::FullMass, Scheme::Stepping::Usf, 1};
+  const Scheme full_mass{Scheme::Basis::Linear, Scheme::Transfer::FullMass, Scheme::Stepping::Usf};
   CHECK_THROWS_AS(mpm::automatic_time_step(full_mass, scene), mpm::SceneError);
   scene.cells[0] = 1;  // a strip, along which nothing varies
   CHECK_NOTHROW(mpm::automatic_time_step(full_mass, scene));

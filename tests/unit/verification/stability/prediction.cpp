@@ -16,7 +16,7 @@ using Stepping = Scheme::Stepping;
 namespace {
 
 Scheme scheme_of(Basis basis, Transfer transfer, Stepping stepping) {
-  return {basis, transfer, stepping, 0.95};
+  return {basis, transfer, stepping};
 }
 
 StabilityProblem problem_of(const Scheme& scheme, Waves waves, const StepSize& ray) {
