@@ -2,20 +2,22 @@
 
 #include <algorithm>
 
+#include "solver/sph/stable_sph_step.hpp"
 #include "verification/config/config_error.hpp"
 
 namespace verification {
 namespace {
 
-Discretisation read_discretisation(TomlTable& table) {
+/// `per_cell`: particles a cell along an axis, where nothing is said.
+Discretisation read_discretisation(TomlTable& table, int per_cell) {
   Discretisation d;
   d.cells = table.integer("cells");
   if (d.cells < 1) table.fail("cells", "must be at least 1");
   d.cells_along = table.integer("cells_along", 1);
   if (d.cells_along < 1) table.fail("cells_along", "must be at least 1");
-  d.particles_across = table.integer("particles_across", 2);
+  d.particles_across = table.integer("particles_across", per_cell);
   if (d.particles_across < 1) table.fail("particles_across", "must be at least 1");
-  d.particles_along = table.integer("particles_along", 2);
+  d.particles_along = table.integer("particles_along", per_cell);
   if (d.particles_along < 1) table.fail("particles_along", "must be at least 1");
   return d;
 }
@@ -44,8 +46,42 @@ mpm::Seeding read_seeding(TomlTable& table, int across) {
   return seeding;
 }
 
+/// Keys of [scheme] that the other method reads.
+void refuse_keys_of_another_method(TomlTable& table, const std::vector<std::string>& keys,
+                                   const std::string& theirs, const std::string& ours) {
+  for (const std::string& key : keys)
+    if (table.has(key))
+      table.fail(key, "is a key of method = \"" + theirs + "\", this scheme is " + ours + ": remove it");
+}
+
+mpm::SphScheme read_sph(TomlTable& table) {
+  mpm::SphScheme sph;
+  refuse_keys_of_another_method(
+      table, {"basis", "transfer", "stepping", "flip_fraction", "reset_every", "reset_strain"}, "mpm", "sph");
+  sph.kernel = read_named(table, "kernel", "quintic", mpm::sph_kernel_named);
+  sph.density = read_named(table, "density", "continuity", mpm::sph_density_named);
+  sph.wall = read_named(table, "wall", "mirror", mpm::sph_wall_named);
+  if (table.has("smoothing")) sph.smoothing = table.positive("smoothing");
+  if (sph.smoothing > 0 && !(sph.smoothing >= 0.7 && sph.smoothing <= 5))
+    table.fail("smoothing", "must lie in [0.7, 5]: the smoothing length over the spacing of the particles");
+  if (table.has("wall_limit")) {
+    sph.wall_limit = table.number("wall_limit");
+    if (sph.wall != mpm::SphScheme::Wall::Morris) table.fail("wall_limit", "is for wall = \"morris\" only");
+    if (!(sph.wall_limit >= 1)) table.fail("wall_limit", "must be at least 1");
+  }
+  return sph;
+}
+
 mpm::Scheme read_scheme(TomlTable table) {
   mpm::Scheme scheme;
+  scheme.method = read_named(table, "method", "mpm", mpm::method_named);
+  if (scheme.method == mpm::Scheme::Method::Sph) {
+    scheme.sph = read_sph(table);
+    table.refuse_unknown_keys();
+    return scheme;
+  }
+  refuse_keys_of_another_method(table, {"kernel", "density", "wall", "smoothing", "wall_limit"}, "sph",
+                                "mpm");
   scheme.basis = read_named(table, "basis", "linear", mpm::basis_named);
   scheme.transfer = read_named(table, "transfer", "flip", mpm::transfer_named);
   scheme.stepping = read_named(table, "stepping", "usf", mpm::stepping_named);
@@ -141,10 +177,14 @@ SceneConfig read_scene_config(TomlTable root) {
   config.flow_name = scene.text("flow");
   config.flow = read_flow(scene, config.fluid);
   TomlTable discretisation = root.table("discretisation");
-  config.discretisation = read_discretisation(discretisation);
-  const mpm::Seeding seeding = read_seeding(discretisation, config.flow->across());
-  discretisation.refuse_unknown_keys();
   config.scheme = read_scheme(root.table("scheme"));
+  const bool is_sph =
+      config.scheme.method == mpm::Scheme::Method::Sph;  // without a grid, a cell is a particle
+  config.discretisation = read_discretisation(discretisation, is_sph ? 1 : 2);
+  const mpm::Seeding seeding = read_seeding(discretisation, config.flow->across());
+  if (is_sph && std::ranges::count(seeding.rule, mpm::Seeding::Rule::Gauss) > 0)
+    discretisation.fail("seeding", "must be \"even\" for method = \"sph\": its particles have equal mass");
+  discretisation.refuse_unknown_keys();
   TomlTable time = root.table("time");
   config.start = time.has("start") ? time.positive("start") : 0;
   if (config.start > 0 && !config.flow->has_exact())
@@ -163,6 +203,8 @@ SceneConfig read_scene_config(TomlTable root) {
     config.scene.seeding = seeding;
     config.scene.start = config.start;
     config.scene.validate();
+    config.scheme.validate();
+    if (is_sph) mpm::require_sph_fits(config.scheme.sph, config.scene);
   } catch (const mpm::SceneError& error) {
     root.fail("scene", error.what());
   }

@@ -1,0 +1,48 @@
+#include "solver/sph/local_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <limits>
+
+namespace mpm::sph {
+namespace {
+
+constexpr int terms = 6;  // 1, x, y, x^2, xy, y^2
+using Matrix = Eigen::Matrix<double, terms, terms>;
+using Sides = Eigen::Matrix<double, terms, 2>;
+
+/// Solves for the first n terms; false where they are not determined.
+template <int n>
+bool solve(const Matrix& normal, const Sides& right, Sides& coefficients) {
+  const Eigen::LDLT<Eigen::Matrix<double, n, n>> factors(normal.topLeftCorner<n, n>());
+  const auto pivots = factors.vectorD();
+  if (!(pivots.minCoeff() > 1e-10 * pivots.maxCoeff())) return false;
+  coefficients.topRows<n>() = factors.solve(right.topRows<n>());
+  return true;
+}
+
+}  // namespace
+
+LocalFit fit_at(const Vec2& point, const std::vector<Neighbour>& entries, std::size_t end,
+                const NeighbourList& list, const SmoothingKernel& kernel) {
+  Matrix normal = Matrix::Zero();
+  Sides right = Sides::Zero(), coefficients = Sides::Zero();
+  const double scale = 1 / kernel.radius;
+  list.around(point, [&](std::uint32_t e) {
+    if (e >= end) return;
+    const Vec2 d = scale * (entries[e].position - point);
+    const double weight = kernel.weight((entries[e].position - point).squaredNorm());
+    if (weight == 0) return;
+    const Eigen::Matrix<double, terms, 1> base{1, d.x(), d.y(), d.x() * d.x(), d.x() * d.y(), d.y() * d.y()};
+    normal += weight * base * base.transpose();
+    right += weight * base * entries[e].velocity.transpose();
+  });
+  if (!(normal(0, 0) > 0)) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    return {Vec2(nan, nan), Mat2::Constant(nan)};
+  }
+  if (!solve<terms>(normal, right, coefficients) && !solve<3>(normal, right, coefficients))
+    coefficients.row(0) = right.row(0) / normal(0, 0);
+  return {coefficients.row(0).transpose(), scale * coefficients.middleRows<2>(1).transpose()};
+}
+
+}  // namespace mpm::sph
