@@ -32,8 +32,6 @@ struct Scheme {
   enum class Basis { Linear, Quadratic, Cubic };
   enum class Transfer { Flip, Pic, FlipBlend, Apic, FullMass };
   enum class Stepping { Usf, Usl, Musl, Leapfrog, ImplicitEuler, ImplicitSdirk2 };
-  Method method = Method::Mpm;
-  SphScheme sph;  ///< of that method; what follows is of the material point method
   Basis basis = Basis::Linear;
   Transfer transfer = Transfer::Flip;
   Stepping stepping = Stepping::Usf;
@@ -43,6 +41,8 @@ struct Scheme {
   /// The same once the fluid has been strained by this much since the last time, integral of sqrt(2 D:D) dt
   /// where that is largest; 0: never. Unlike a number of steps it does not change with dt.
   double reset_strain = 0;
+  Method method = Method::Mpm;
+  SphScheme sph;  ///< of that method; what stands above is of the material point method
 
   [[nodiscard]] bool resets() const { return reset_every > 0 || reset_strain > 0; }
 

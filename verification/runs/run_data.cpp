@@ -5,19 +5,27 @@ namespace verification {
 reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long steps,
                                 const std::string& status) {
   const SceneConfig& scene = plan.scene;
-  return {plan.run,
-          study.name,
-          scene.flow_name,
-          scene.fluid.label,
-          mpm::name(scene.scheme.basis),
-          mpm::name(scene.scheme.transfer),
-          mpm::name(scene.scheme.stepping),
-          scene.discretisation.cells,
-          scene.particles(),
-          scene.segments.front().dt,
-          steps,
-          status,
-          mpm::reset_name(scene.scheme)};
+  reports::RunRecord record = {plan.run,
+                               study.name,
+                               scene.flow_name,
+                               scene.fluid.label,
+                               mpm::name(scene.scheme.basis),
+                               mpm::name(scene.scheme.transfer),
+                               mpm::name(scene.scheme.stepping),
+                               scene.discretisation.cells,
+                               scene.particles(),
+                               scene.segments.front().dt,
+                               steps,
+                               status,
+                               mpm::reset_name(scene.scheme)};
+  if (scene.scheme.method == mpm::Scheme::Method::Sph) {
+    const mpm::SphScheme& sph = scene.scheme.sph;
+    record.method = "SPH";
+    record.basis = mpm::name(sph.kernel);
+    record.transfer = mpm::name(sph.wall) + "-" + mpm::name(sph.density);
+    record.stepping = "verlet";
+  }
+  return record;
 }
 
 }  // namespace verification
