@@ -31,7 +31,8 @@ std::vector<std::string> variants_of(TomlTable& table, const std::string& key, c
   return variants;
 }
 
-/// A pattern: lists of parts (an absent list takes every one), or schemes by name.
+/// A pattern: lists of parts of the material point method (an absent list takes every one), or schemes by
+/// name. One of another method is expected something of by its name alone.
 class Pattern {
  public:
   Pattern(TomlTable& table, const Study& study)
@@ -42,6 +43,7 @@ class Pattern {
 
   [[nodiscard]] bool matches(const PlannedRun& run) const {
     const mpm::Scheme& scheme = run.scene.scheme;
+    if (scheme.method != mpm::Scheme::Method::Mpm && variants_.empty()) return false;
     const auto has = [](const std::vector<std::string>& names, const std::string& wanted) {
       return std::ranges::count(names, wanted) > 0;
     };
