@@ -54,7 +54,7 @@ void refuse_keys_of_another_method(TomlTable& table, const std::vector<std::stri
       table.fail(key, "is a key of method = \"" + theirs + "\", this scheme is " + ours + ": remove it");
 }
 
-mpm::SphScheme read_sph(TomlTable& table) {
+mpm::SphScheme read_sph(TomlTable table) {
   mpm::SphScheme sph;
   refuse_keys_of_another_method(
       table, {"basis", "transfer", "stepping", "flip_fraction", "reset_every", "reset_strain"}, "mpm", "sph");
@@ -69,17 +69,12 @@ mpm::SphScheme read_sph(TomlTable& table) {
     if (sph.wall != mpm::SphScheme::Wall::Morris) table.fail("wall_limit", "is for wall = \"morris\" only");
     if (!(sph.wall_limit >= 1)) table.fail("wall_limit", "must be at least 1");
   }
+  table.refuse_unknown_keys();
   return sph;
 }
 
 mpm::Scheme read_scheme(TomlTable table) {
   mpm::Scheme scheme;
-  scheme.method = read_named(table, "method", "mpm", mpm::method_named);
-  if (scheme.method == mpm::Scheme::Method::Sph) {
-    scheme.sph = read_sph(table);
-    table.refuse_unknown_keys();
-    return scheme;
-  }
   refuse_keys_of_another_method(table, {"kernel", "density", "wall", "smoothing", "wall_limit"}, "sph",
                                 "mpm");
   scheme.basis = read_named(table, "basis", "linear", mpm::basis_named);
@@ -115,7 +110,7 @@ std::vector<double> read_outputs(TomlTable& table) {
   return outputs;
 }
 
-mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme, const mpm::Scene& scene) {
+mpm::TimeStepRule read_time_step(TomlTable& table, const SceneConfig& config) {
   mpm::TimeStepRule rule;
   if (table.has("dt")) {
     rule.dt = table.positive("dt");
@@ -129,7 +124,8 @@ mpm::TimeStepRule read_time_step(TomlTable& table, const mpm::Scheme& scheme, co
     return rule;
   }
   try {
-    rule = mpm::automatic_time_step(scheme, scene);
+    rule = config.sph ? mpm::sph_time_step(*config.sph, config.scene)
+                      : mpm::automatic_time_step(config.scheme, config.scene);
   } catch (const mpm::SceneError& error) {
     table.fail("dt", error.what());
   }
@@ -177,9 +173,15 @@ SceneConfig read_scene_config(TomlTable root) {
   config.flow_name = scene.text("flow");
   config.flow = read_flow(scene, config.fluid);
   TomlTable discretisation = root.table("discretisation");
-  config.scheme = read_scheme(root.table("scheme"));
-  const bool is_sph =
-      config.scheme.method == mpm::Scheme::Method::Sph;  // without a grid, a cell is a particle
+  TomlTable scheme = root.table("scheme");
+  const std::string method = scheme.text("method", "mpm");
+  if (method != "mpm" && method != "sph")
+    scheme.fail("method", "'" + method + "' is not known; choose one of: mpm, sph");
+  const bool is_sph = method == "sph";  // without a grid: a cell is a particle, where nothing is said
+  if (is_sph)
+    config.sph = read_sph(scheme);
+  else
+    config.scheme = read_scheme(scheme);
   config.discretisation = read_discretisation(discretisation, is_sph ? 1 : 2);
   const mpm::Seeding seeding = read_seeding(discretisation, config.flow->across());
   if (is_sph && std::ranges::count(seeding.rule, mpm::Seeding::Rule::Gauss) > 0)
@@ -203,15 +205,14 @@ SceneConfig read_scene_config(TomlTable root) {
     config.scene.seeding = seeding;
     config.scene.start = config.start;
     config.scene.validate();
-    config.scheme.validate();
-    if (is_sph) mpm::require_sph_fits(config.scheme.sph, config.scene);
+    if (is_sph) mpm::require_sph_fits(*config.sph, config.scene);
   } catch (const mpm::SceneError& error) {
     root.fail("scene", error.what());
   }
   if (config.start > 0 && config.scene.initial_density &&
       !config.flow->exact({config.start})->density(Vec2::Zero(), config.start))
     time.fail("start", "is for flows whose density is known at any time: this one starts at t = 0 only");
-  config.time_step = read_time_step(time, config.scheme, config.scene);
+  config.time_step = read_time_step(time, config);
   time.refuse_unknown_keys();
   root.refuse_unknown_keys();
   try {
