@@ -2,7 +2,6 @@
 
 #include "solver/grid/axis.hpp"
 #include "solver/kernel/isa.hpp"
-#include "solver/sph/make_sph_solver.hpp"
 #include "solver/table/make_solver.hpp"
 
 namespace mpm {
@@ -37,7 +36,6 @@ std::unique_ptr<Simulation> make_simulation(const Scene& scene, const Scheme& sc
   scheme.validate();
   check_together(scene, scheme);
   if (threads == 0) threads = default_threads();
-  if (scheme.method == Scheme::Method::Sph) return make_sph_solver(scene, scheme.sph, threads);
   switch (scheme.basis) {
     case Scheme::Basis::Linear:
       return make_linear_solver(scene, scheme, threads);

@@ -35,56 +35,6 @@ void Scheme::validate() const {
     throw SceneError("dilatation 'cell' does not go with full-mass and " + name(stepping) +
                      ", whose particles carry their own gradient; use 'particle', or another transfer or "
                      "stepping");
-  if (method != Method::Sph) return;
-  const double ratio = sph.smoothing_ratio();
-  if (!(ratio >= 0.7 && ratio <= 5)) throw SceneError("smoothing must lie in [0.7, 5] spacings");
-  if (!(sph.wall_limit >= 1 && std::isfinite(sph.wall_limit)))
-    throw SceneError("wall_limit must be finite and at least 1");
-}
-
-const std::vector<SchemePart>& method_parts() {
-  static const std::vector<SchemePart> parts = {
-      {"mpm", "material point method"},
-      {"sph", "smoothed particle hydrodynamics"},
-  };
-  return parts;
-}
-
-const std::vector<SchemePart>& sph_kernel_parts() {
-  static const std::vector<SchemePart> parts = {
-      {"quintic", "quintic spline, support of three smoothing lengths"},
-      {"cubic", "cubic spline, support of two smoothing lengths"},
-  };
-  return parts;
-}
-
-const std::vector<SchemePart>& sph_density_parts() {
-  static const std::vector<SchemePart> parts = {
-      {"continuity", "density follows the divergence of the velocity"},
-      {"summation", "density is the sum of the neighbours' masses under the kernel"},
-  };
-  return parts;
-}
-
-const std::vector<SchemePart>& sph_wall_parts() {
-  static const std::vector<SchemePart> parts = {
-      {"mirror", "images of the fluid, the velocity reflected in the wall's"},
-      {"morris", "fixed particles, velocity extrapolated through the wall and limited"},
-  };
-  return parts;
-}
-
-std::string name(Scheme::Method method) {
-  return name_in(method_parts(), method);
-}
-std::string name(SphScheme::Kernel kernel) {
-  return name_in(sph_kernel_parts(), kernel);
-}
-std::string name(SphScheme::Density density) {
-  return name_in(sph_density_parts(), density);
-}
-std::string name(SphScheme::Wall wall) {
-  return name_in(sph_wall_parts(), wall);
 }
 
 const std::vector<SchemePart>& basis_parts() {
@@ -152,18 +102,6 @@ std::string reset_name(const Scheme& scheme) {
   }
   return text;
 }
-Scheme::Method method_named(const std::string& text) {
-  return value_in<Scheme::Method>(method_parts(), text);
-}
-SphScheme::Kernel sph_kernel_named(const std::string& text) {
-  return value_in<SphScheme::Kernel>(sph_kernel_parts(), text);
-}
-SphScheme::Density sph_density_named(const std::string& text) {
-  return value_in<SphScheme::Density>(sph_density_parts(), text);
-}
-SphScheme::Wall sph_wall_named(const std::string& text) {
-  return value_in<SphScheme::Wall>(sph_wall_parts(), text);
-}
 Scheme::Basis basis_named(const std::string& text) {
   return value_in<Scheme::Basis>(basis_parts(), text);
 }
@@ -178,10 +116,6 @@ Scheme::Dilatation dilatation_named(const std::string& text) {
 }
 
 FormalOrder formal_order(const Scheme& scheme) {
-  if (scheme.method == Scheme::Method::Sph) {
-    const double order = scheme.sph.wall == SphScheme::Wall::Mirror ? 2 : 1;
-    return {order, order, 2, 0};
-  }
   const int degree = 1 + static_cast<int>(scheme.basis);
   FormalOrder order{2, 2, 1, 0};
   using Transfer = Scheme::Transfer;

@@ -2,12 +2,16 @@
 
 #include <variant>
 
+#include "solver/kernel/isa.hpp"
 #include "solver/material/pressure.hpp"
 #include "solver/sph/sph_solver.hpp"
 
 namespace mpm {
 
 std::unique_ptr<Simulation> make_sph_solver(const Scene& scene, const SphScheme& scheme, int threads) {
+  scene.validate();
+  scheme.validate();
+  if (threads == 0) threads = default_threads();
   for (const Seeding::Rule rule : scene.seeding.rule)
     if (rule != Seeding::Rule::Even)
       throw SceneError("SPH takes particles of equal mass: seeding must be even");

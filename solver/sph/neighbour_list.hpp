@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,6 +22,9 @@ class NeighbourList {
   }
   [[nodiscard]] std::span<const std::uint32_t> wall(std::size_t p) const {
     return {list_.data() + middle_[p], list_.data() + begin_[p + 1]};
+  }
+  [[nodiscard]] std::span<const std::uint32_t> all(std::size_t p) const {
+    return {list_.data() + begin_[p], list_.data() + begin_[p + 1]};
   }
   /// Place of a particle's first neighbour in an array with one number a pair.
   [[nodiscard]] std::size_t first_pair(std::size_t p) const { return begin_[p]; }

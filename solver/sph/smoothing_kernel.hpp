@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "solver/scene/scheme.hpp"
+#include "solver/sph/sph_scheme.hpp"
 
 namespace mpm::sph {
 

@@ -155,6 +155,7 @@ class SphSolver final : public Simulation {
 
   /// Density, viscosity, and the acceleration at time t [s] after a step of dt.
   void evaluate(double t, double dt) {
+    const bool follows_density = Pressure::varies && !sums_density();
     gravity_ = scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero());
     if constexpr (Pressure::varies) {
       if (sums_density()) {
@@ -163,6 +164,7 @@ class SphSolver final : public Simulation {
       } else if (dt > 0) {
         fill_fluid(entries_, velocity_);
         surroundings_.fill(entries_, t - 0.5 * dt, gravity_);
+        slope_.resize(list_.pairs());
         for_particles([&](std::size_t p) { density_rate_[p] = density_rate(p); });
         for (std::size_t p = 0; p < size(); ++p) density_[p] += dt * density_rate_[p];
       }
@@ -174,31 +176,46 @@ class SphSolver final : public Simulation {
       for (std::size_t p = 0; p < size(); ++p) entries_[p].viscosity = rheology_.viscosity();
     }
     refresh(t);
-    for_particles([&](std::size_t p) { find_acceleration(p); });
+    if (follows_density && dt > 0)
+      for_particles([&](std::size_t p) { find_acceleration(p, kept_slope(p)); });
+    else
+      for_particles([&](std::size_t p) { find_acceleration(p, fresh_slope()); });
     add_body_forces(t);
   }
 
-  /// Calls pair(entry, F) for the neighbours of a particle; those of walls last, as wall_pair(entry, F).
-  template <class Pair, class WallPair>
-  void for_pairs(std::size_t p, const Pair& pair, const WallPair& wall_pair) const {
+  /// Calls pair(neighbour, x_ij, F) for the neighbours of a particle, then wall_pair(entry, x_ij, F) for
+  /// those of walls. `slope(r^2)` gives F.
+  template <class Slope, class Pair, class WallPair>
+  void for_pairs(std::size_t p, Slope slope, const Pair& pair, const WallPair& wall_pair) const {
     const Vec2 x = entries_[p].position;
     for (const std::uint32_t e : list_.inner(p)) {
       const Vec2 d = x - entries_[e].position;
-      pair(entries_[e], d, kernel_.gradient(d.squaredNorm()));
+      pair(entries_[e], d, slope(d));
     }
     for (const std::uint32_t e : list_.wall(p)) {
       const Vec2 d = x - entries_[e].position;
-      wall_pair(e, d, kernel_.gradient(d.squaredNorm()));
+      wall_pair(e, d, slope(d));
     }
   }
 
-  [[nodiscard]] double density_rate(std::size_t p) const {
-    const Vec2 v = entries_[p].velocity;
+  [[nodiscard]] auto fresh_slope() const {
+    return [this](const Vec2& d) { return kernel_.gradient(d.squaredNorm()); };
+  }
+  [[nodiscard]] auto kept_slope(std::size_t p) const {
+    return [slope = slope_.data() + list_.first_pair(p)](const Vec2&) mutable { return *slope++; };
+  }
+
+  /// The pairs' F is kept: positions stay until the acceleration has been taken.
+  double density_rate(std::size_t p) {
+    const Vec2 x = entries_[p].position, v = entries_[p].velocity;
     double rate = 0;
-    const auto pair = [&](const Neighbour& n, const Vec2& d, double f) {
-      rate += n.mass * f * d.dot(v - n.velocity);
-    };
-    for_pairs(p, pair, [&](std::uint32_t e, const Vec2& d, double f) { pair(entries_[e], d, f); });
+    double* slope = slope_.data() + list_.first_pair(p);
+    for (const std::uint32_t e : list_.all(p)) {
+      const Neighbour& n = entries_[e];
+      const Vec2 d = x - n.position;
+      *slope = kernel_.gradient(d.squaredNorm());
+      rate += n.mass * *slope++ * d.dot(v - n.velocity);
+    }
     return rate;
   }
 
@@ -228,7 +245,7 @@ class SphSolver final : public Simulation {
         l -= volume_f * dv * d.transpose();
       };
       for_pairs(
-          p,
+          p, fresh_slope(),
           [&](const Neighbour& n, const Vec2& d, double f) {
             add(entries_[p].velocity - n.velocity, d, n.mass * n.inverse_density * f);
           },
@@ -256,7 +273,8 @@ class SphSolver final : public Simulation {
     return std::min(factor, scheme_.wall_limit) * difference;
   }
 
-  void find_acceleration(std::size_t p) {
+  template <class Slope>
+  void find_acceleration(std::size_t p, const Slope& slope) {
     const Neighbour& own = entries_[p];
     Vec2 sum = Vec2::Zero();
     const auto add = [&](const Vec2& d, const Vec2& dv, double mass_f, double pressures, double viscosities) {
@@ -265,9 +283,9 @@ class SphSolver final : public Simulation {
       else
         sum += mass_f * viscosities * dv;
     };
-    Vec2 inner = Vec2::Zero();
+    Vec2 from_walls = Vec2::Zero();
     for_pairs(
-        p,
+        p, slope,
         [&](const Neighbour& n, const Vec2& d, double f) {
           add(d, own.velocity - n.velocity, n.mass * f, own.pressure_term + n.pressure_term,
               (own.viscosity + n.viscosity) * own.inverse_density * n.inverse_density);
@@ -285,10 +303,10 @@ class SphSolver final : public Simulation {
           const double pressures = own.pressure_term + n.pressure_term;
           const Vec2 dv = velocity_to_wall(p, e);
           add(d, dv, mass_f, pressures, viscosities);
-          inner += mass_f * (viscosities * dv - pressures * d);
+          from_walls += mass_f * (viscosities * dv - pressures * d);
         });
     acceleration_[p] = sum;
-    wall_force_[p] = own.mass * inner;
+    wall_force_[p] = own.mass * from_walls;
   }
 
   void add_body_forces(double t) {
@@ -349,7 +367,7 @@ class SphSolver final : public Simulation {
   VectorField position_, velocity_;
   ScalarField density_;
   VectorField acceleration_, wall_force_, field_acceleration_;
-  ScalarField density_rate_;
+  ScalarField density_rate_, slope_;
   VectorField extrapolated_;
   Vec2 gravity_ = Vec2::Zero(), force_ = Vec2::Zero(), impulse_ = Vec2::Zero();
   double moved_ = 0;

@@ -1,5 +1,6 @@
 #include "solver/sph/stable_sph_step.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -53,6 +54,22 @@ StableStep stable_sph_step(const SphScheme& scheme, const Scene& scene) {
       }
   const double cell = scene.smallest_cell_size();
   return {1 / (worst.laplacian * cell * cell), 2 / (worst.gradient * cell)};
+}
+
+TimeStepRule sph_time_step(const SphScheme& scheme, const Scene& scene) {
+  const StableStep limit = stable_sph_step(scheme, scene);
+  const double cell = scene.smallest_cell_size(), h = smoothing_length(scheme, scene);
+  TimeStepRule rule;
+  rule.cfl_acoustic = std::min(0.25 * h / cell, 0.5 * limit.acoustic);
+  rule.cfl_viscous = std::min(0.125 * h * h / (cell * cell), 0.5 * limit.viscous);
+  const double force = scene.body_acceleration ? scene.body_acceleration(scene.start).norm() : 0;
+  const double c = scene.fluid.sound_speed(), nu = scene.fluid.largest_kinematic_viscosity();
+  if (force > 0) {  // a bound on dt in terms of the two that the rule knows
+    const double longest = 0.25 * std::sqrt(h / force);
+    if (c > 0) rule.cfl_acoustic = std::min(rule.cfl_acoustic, longest * c / cell);
+    if (nu > 0) rule.cfl_viscous = std::min(rule.cfl_viscous, longest * nu / (cell * cell));
+  }
+  return rule;
 }
 
 void require_sph_fits(const SphScheme& scheme, const Scene& scene) {

@@ -3,6 +3,7 @@
 #include "solver/scene/scene.hpp"
 #include "solver/sph/smoothing_kernel.hpp"
 #include "solver/step/stable_step.hpp"
+#include "solver/step/time_step.hpp"
 
 namespace mpm {
 
@@ -17,6 +18,10 @@ double smoothing_length(const SphScheme& scheme, const Scene& scene);
 /// omega dt
 /// <= 2 with the largest frequency of sound (acoustic).
 StableStep stable_sph_step(const SphScheme& scheme, const Scene& scene);
+
+/// What Morris, Fox & Zhu (1997) use: dt <= 0.25 h/c, 0.125 h^2/nu and 0.25 sqrt(h/F), with the smoothing
+/// length h and the body acceleration F at the start; but no more than half of each limit above.
+TimeStepRule sph_time_step(const SphScheme& scheme, const Scene& scene);
 
 /// Throws SceneError where walls are closer to each other than the kernel reaches.
 void require_sph_fits(const SphScheme& scheme, const Scene& scene);

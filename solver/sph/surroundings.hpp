@@ -6,6 +6,7 @@
 
 #include "solver/particles.hpp"
 #include "solver/scene/scene.hpp"
+#include "solver/sph/sph_scheme.hpp"
 
 namespace mpm::sph {
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/sph/stable_sph_step.hpp"
 #include "solver/step/stable_step.hpp"
 
 namespace mpm {
@@ -15,23 +14,7 @@ constexpr double sliver = 1e-6;
 
 }  // namespace
 
-namespace {
-
-TimeStepRule sph_time_step(const SphScheme& scheme, const Scene& scene) {
-  const StableStep limit = stable_sph_step(scheme, scene);
-  const double cell = scene.smallest_cell_size(), h = smoothing_length(scheme, scene);
-  TimeStepRule rule;
-  rule.cfl_acoustic = std::min(0.25 * h / cell, 0.5 * limit.acoustic);
-  rule.cfl_viscous = std::min(0.125 * h * h / (cell * cell), 0.5 * limit.viscous);
-  const double force = scene.body_acceleration ? scene.body_acceleration(scene.start).norm() : 0;
-  if (force > 0) rule.longest = 0.25 * std::sqrt(h / force);
-  return rule;
-}
-
-}  // namespace
-
 TimeStepRule automatic_time_step(const Scheme& scheme, const Scene& scene) {
-  if (scheme.method == Scheme::Method::Sph) return sph_time_step(scheme.sph, scene);
   const StableStep limit = stable_step(scheme, fewest_particles_per_cell(scene));
   if (!(limit.viscous > 0 && limit.acoustic > 0))
     throw SceneError(
@@ -52,7 +35,7 @@ double nominal_time_step(const TimeStepRule& rule, const Scene& scene) {
   const double h = scene.smallest_cell_size();
   const double c = scene.fluid.sound_speed();
   const double nu = scene.fluid.largest_kinematic_viscosity();
-  double dt = rule.longest;
+  double dt = std::numeric_limits<double>::infinity();
   if (c > 0) dt = std::min(dt, rule.cfl_acoustic * h / c);
   if (nu > 0) dt = std::min(dt, rule.cfl_viscous * h * h / nu);
   if (!std::isfinite(dt)) throw SceneError("neither sound nor viscosity limits the time step: give dt");

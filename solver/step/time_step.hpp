@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,16 +17,13 @@ struct TimeStepRule {
   double dt = 0;  ///< [s]; 0: from the limits
   double cfl_acoustic = 0.5;
   double cfl_viscous = 0.2;
-  double longest = std::numeric_limits<double>::infinity();  ///< another bound on a step from the limits [s]
 };
 
 /// Half of each limit in solver/step/stable_step.hpp, but not above cfl_viscous 0.2 and cfl_acoustic 0.5,
 /// which keep the time error small. Viscosity and sound together are stable wherever r/r_max +
 /// (CFL/CFL_max)^2 <= 1 (so it is for stress first, others bear more): halves use three quarters of that, and
 /// dt may grow by 1.23 before anything does. Implicit viscosity has no viscous limit; give it a dt to make
-/// use of that. SPH: what Morris, Fox & Zhu (1997) use, dt <= 0.25 h/c, 0.125 h^2/nu and 0.25 sqrt(h/F) with
-/// the smoothing length h and the body acceleration F at the start, where that is less. Throws SceneError
-/// where no explicit step is stable (full mass with one particle a cell).
+/// use of that. Throws SceneError where no explicit step is stable (full mass with one particle a cell).
 TimeStepRule automatic_time_step(const Scheme& scheme, const Scene& scene);
 
 /// Largest step that the rule allows [s]. Throws SceneError for a negative or non-finite dt, or when neither

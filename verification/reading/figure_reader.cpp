@@ -85,8 +85,8 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
     if (shear && !last->scene.flow->has_shear_profile()) table.fail("kind", "is for channels");
   }
   if (shear || pressure || figure.kind == "profiles" || figure.kind == "history" || figure.kind == "energy") {
-    if (figure.kind == "profiles" && runs.size() > 1)
-      table.fail("variants", "a profile figure shows one variant");
+    if (figure.kind == "profiles" && runs.size() > 1 && !table.has("variants"))
+      table.fail("variants", "say which to show: several in one figure are told apart by colour");
     figure.runs = joined(runs);
     figure.labels = table.has("labels") ? joined(table.texts("labels")) : joined(variants);
     figure.across = last->scene.flow->across() == 0 ? "x" : "y";

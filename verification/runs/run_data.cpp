@@ -19,8 +19,8 @@ reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long
                                steps,
                                status,
                                mpm::reset_name(scene.scheme)};
-  if (scene.scheme.method == mpm::Scheme::Method::Sph) {
-    const mpm::SphScheme& sph = scene.scheme.sph;
+  if (scene.sph) {
+    const mpm::SphScheme& sph = *scene.sph;
     record.method = "SPH";
     record.basis = mpm::name(sph.kernel);
     record.transfer = mpm::name(sph.wall) + "-" + mpm::name(sph.density);

@@ -10,6 +10,7 @@
 #include "reference/compressible/tait_column.hpp"
 #include "solver/material/pressure.hpp"
 #include "solver/simulation.hpp"
+#include "solver/sph/make_sph_solver.hpp"
 #include "verification/runs/interruption.hpp"
 
 namespace verification {
@@ -176,7 +177,8 @@ RunData simulate(const Study& study, const PlannedRun& plan, const mpm::Scene& s
   RunData data;
   data.plan = &plan;
   const auto begin = std::chrono::steady_clock::now();
-  const auto simulation = mpm::make_simulation(started, plan.scene.scheme);
+  const auto simulation = plan.scene.sph ? mpm::make_sph_solver(started, *plan.scene.sph)
+                                         : mpm::make_simulation(started, plan.scene.scheme);
   Recorder recorder(plan, *simulation, exact, data);
   const mpm::Outcome outcome = mpm::run(
       *simulation, plan.scene.segments,

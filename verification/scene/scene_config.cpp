@@ -58,7 +58,7 @@ void refuse_keys_of_another_method(TomlTable& table, const std::vector<std::stri
       table.fail(key, "is a key of method = \"" + theirs + "\", this scheme is " + ours + ": remove it");
 }
 
-mpm::SphScheme read_sph(TomlTable& table) {
+mpm::SphScheme read_sph(TomlTable table) {
   mpm::SphScheme sph;
   refuse_keys_of_another_method(
       table, {"basis", "transfer", "stepping", "flip_fraction", "reset_every", "reset_strain"}, "mpm", "sph");
@@ -73,17 +73,12 @@ mpm::SphScheme read_sph(TomlTable& table) {
     if (sph.wall != mpm::SphScheme::Wall::Morris) table.fail("wall_limit", "is for wall = \"morris\" only");
     if (!(sph.wall_limit >= 1)) table.fail("wall_limit", "must be at least 1");
   }
+  table.refuse_unknown_keys();
   return sph;
 }
 
 mpm::Scheme read_scheme(TomlTable table) {
   mpm::Scheme scheme;
-  scheme.method = read_named(table, "method", "mpm", mpm::method_named);
-  if (scheme.method == mpm::Scheme::Method::Sph) {
-    scheme.sph = read_sph(table);
-    table.refuse_unknown_keys();
-    return scheme;
-  }
   refuse_keys_of_another_method(table, {"kernel", "density", "wall", "smoothing", "wall_limit"}, "sph",
                                 "mpm");
   scheme.basis = read_named(table, "basis", "linear", mpm::basis_named);
@@ -141,11 +136,12 @@ mpm::TimeStepRule read_time_step(TomlTable& table, const SceneConfig& config) {
     return rule;
   }
   try {
-    rule = mpm::automatic_time_step(scheme, scene);
+    rule = config.sph ? mpm::sph_time_step(*config.sph, config.scene)
+                      : mpm::automatic_time_step(config.scheme, config.scene);
   } catch (const mpm::SceneError& error) {
     table.fail("dt", error.what());
   }
-  if (std::isinf(mpm::stable_step(scheme, mpm::fewest_particles_per_cell(scene)).viscous)) {
+  if (!config.sph && std::isinf(mpm::stable_step(scheme, mpm::fewest_particles_per_cell(scene)).viscous)) {
     // Implicit viscosity: the explicit limit at the largest viscosity, which a power law has at its
     // shear-rate floor, says nothing. Accuracy does.
     const double h = scene.smallest_cell_size();
@@ -192,9 +188,15 @@ double SceneConfig::particle_steps() const {
 SceneConfig read_scene_config(TomlTable root) {
   SceneConfig config;
   config.toml = root.restricted_to(scene_tables()).print();
-  config.scheme = read_scheme(root.table("scheme"));
-  const bool is_sph =
-      config.scheme.method == mpm::Scheme::Method::Sph;  // without a grid, a cell is a particle
+  TomlTable scheme = root.table("scheme");
+  const std::string method = scheme.text("method", "mpm");
+  if (method != "mpm" && method != "sph")
+    scheme.fail("method", "'" + method + "' is not known; choose one of: mpm, sph");
+  const bool is_sph = method == "sph";  // without a grid: a cell is a particle, where nothing is said
+  if (is_sph)
+    config.sph = read_sph(scheme);
+  else
+    config.scheme = read_scheme(scheme);
   TomlTable discretisation = root.table("discretisation");
   config.discretisation = read_discretisation(discretisation, is_sph ? 1 : 2);
   config.fluid = read_fluid(root.table("fluid"), config.discretisation.cells);
@@ -224,8 +226,7 @@ SceneConfig read_scene_config(TomlTable root) {
     config.scene.start = config.start;
     config.scene.validate();
     mpm::check_together(config.scene, config.scheme);
-    config.scheme.validate();
-    if (is_sph) mpm::require_sph_fits(config.scheme.sph, config.scene);
+    if (is_sph) mpm::require_sph_fits(*config.sph, config.scene);
   } catch (const mpm::SceneError& error) {
     root.fail("scene", error.what());
   }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "solver/scene/scene.hpp"
+#include "solver/sph/sph_scheme.hpp"
 #include "solver/step/time_step.hpp"
 #include "verification/config/toml_table.hpp"
 #include "verification/scene/flow_reader.hpp"
@@ -19,7 +21,8 @@ struct SceneConfig {
   std::shared_ptr<const Flow> flow;
   FluidConfig fluid;
   Discretisation discretisation;
-  mpm::Scheme scheme;
+  mpm::Scheme scheme;                 ///< of the material point method
+  std::optional<mpm::SphScheme> sph;  ///< scheme.method = "sph": simulated by SPH instead
   mpm::TimeStepRule time_step;
   double start = 0;  ///< time at which the run starts, from the exact solution if not from rest [s]
   std::vector<double> outputs;               ///< output times, increasing [s]

@@ -2,8 +2,7 @@
 #include <limits>
 #include <numbers>
 
-#include "reference/channel/newtonian_channel.hpp"
-#include "solver/simulation.hpp"
+#include "solver/sph/make_sph_solver.hpp"
 #include "solver/sph/stable_sph_step.hpp"
 #include "solver/step/time_step.hpp"
 #include "tests/catch.hpp"
@@ -14,11 +13,10 @@ namespace {
 
 constexpr double height = 1e-3, nu = 1e-6, force = 8e-3;
 
-Scheme sph(SphScheme::Wall wall = SphScheme::Wall::Mirror, double smoothing = 0) {
-  Scheme scheme;
-  scheme.method = Scheme::Method::Sph;
-  scheme.sph.wall = wall;
-  scheme.sph.smoothing = smoothing;
+SphScheme sph(SphScheme::Wall wall = SphScheme::Wall::Mirror, double smoothing = 0) {
+  SphScheme scheme;
+  scheme.wall = wall;
+  scheme.smoothing = smoothing;
   return scheme;
 }
 
@@ -48,10 +46,10 @@ Scene box(int n, double sound, double mu) {
 }
 
 /// Steady Poiseuille flow by relaxation; error of the particles relative to the maximum.
-double steady_error(int across, const Scheme& scheme) {
+double steady_error(int across, const SphScheme& scheme) {
   const Scene scene = channel(across, 1, 0);
-  const auto simulation = make_simulation(scene, scheme, 1);
-  const auto segments = plan_segments(automatic_time_step(scheme, scene), scene, {1.2});
+  const auto simulation = make_sph_solver(scene, scheme, 1);
+  const auto segments = plan_segments(sph_time_step(scheme, scene), scene, {1.2});
   const Outcome outcome = run(
       *simulation, segments, [](double) {}, [](double) {});
   REQUIRE(!outcome.breakdown);
@@ -74,7 +72,7 @@ TEST_CASE("SPH between mirrors is second order in the spacing, beside fixed wall
   const double p_mirror = order(steady_error(12, sph()), steady_error(24, sph()), 2);
   CHECK(p_mirror > 1.9);
   CHECK(p_mirror < 2.3);
-  const Scheme morris = sph(SphScheme::Wall::Morris);
+  const SphScheme morris = sph(SphScheme::Wall::Morris);
   const double p_morris = order(steady_error(12, morris), steady_error(24, morris), 2);
   CHECK(p_morris > 0.8);
   CHECK(p_morris < 1.4);
@@ -91,13 +89,13 @@ TEST_CASE("SPH is second order in the smoothing length", "[sph]") {
 TEST_CASE("SPH conserves mass, and changes momentum by body and wall forces alone", "[sph]") {
   for (const SphScheme::Wall wall : {SphScheme::Wall::Mirror, SphScheme::Wall::Morris})
     for (const SphScheme::Density density : {SphScheme::Density::Continuity, SphScheme::Density::Summation}) {
-      Scheme scheme = sph(wall);
-      scheme.sph.density = density;
+      SphScheme scheme = sph(wall);
+      scheme.density = density;
       INFO(name(wall) << " " << name(density));
       Scene scene = channel(12, 10, 0.05);
       scene.seeding.displacement = 0.2;
       scene.fluid.rheology = Cross<SquareRoot>{1e-3, 5e-4, 1.0, {}};
-      const auto simulation = make_simulation(scene, scheme, 1);
+      const auto simulation = make_sph_solver(scene, scheme, 1);
       const Totals before = simulation->totals();
       const Outcome outcome = run(
           *simulation, plan_segments({1e-4}, scene, {0.02}), [](double) {}, [](double) {});
@@ -114,7 +112,7 @@ TEST_CASE("SPH gives the same bits on any number of threads", "[sph]") {
   Scene scene = channel(20, 30, 0.05);
   scene.seeding.displacement = 0.3;
   scene.fluid.rheology = PowerLaw{1e-3, 0.8, 1e-2, 10};
-  const auto one = make_simulation(scene, sph(), 1), three = make_simulation(scene, sph(), 3);
+  const auto one = make_sph_solver(scene, sph(), 1), three = make_sph_solver(scene, sph(), 3);
   for (int k = 0; k < 30; ++k) {
     one->advance(k * 5e-5, 5e-5);
     three->advance(k * 5e-5, 5e-5);
@@ -127,7 +125,7 @@ TEST_CASE("SPH gives the same bits on any number of threads", "[sph]") {
 
 TEST_CASE("SPH steps are stable up to the limit that its symbols give, and no further", "[sph]") {
   const auto growth = [](const Scene& scene, double dt, int steps) {
-    const auto simulation = make_simulation(scene, sph(), 1);
+    const auto simulation = make_sph_solver(scene, sph(), 1);
     const double before = simulation->totals().kinetic_energy;
     for (int k = 0; k < steps; ++k) simulation->advance(k * dt, dt);
     return simulation->totals().kinetic_energy / before;
@@ -139,7 +137,7 @@ TEST_CASE("SPH steps are stable up to the limit that its symbols give, and no fu
       return Vec2(1e-9 * std::sin(1e7 * x.x() * x.x() + 2e4 * x.y()), 0);
     };
     const double h = scene.cell_size(0);
-    const double limit = stable_sph_step(sph().sph, scene).viscous * h * h / nu;
+    const double limit = stable_sph_step(sph(), scene).viscous * h * h / nu;
     CHECK(growth(scene, 0.97 * limit, 400) < 1);
     CHECK(growth(scene, 1.05 * limit, 400) > 1e3);
   }
@@ -148,7 +146,7 @@ TEST_CASE("SPH steps are stable up to the limit that its symbols give, and no fu
     scene.initial_velocity = [](const Vec2& x) {
       return Vec2(1e-12 * std::sin(1e7 * x.x() * x.x() + 2e4 * x.y()), 0);
     };
-    const double limit = stable_sph_step(sph().sph, scene).acoustic * scene.cell_size(0);
+    const double limit = stable_sph_step(sph(), scene).acoustic * scene.cell_size(0);
     CHECK(growth(scene, 0.97 * limit, 400) < 50);  // neutrally stable: energy goes to and fro
     CHECK(growth(scene, 1.06 * limit, 400) > 1e6);
   }
@@ -157,7 +155,7 @@ TEST_CASE("SPH steps are stable up to the limit that its symbols give, and no fu
 TEST_CASE("SPH carries a lattice along without change", "[sph]") {
   Scene scene = box(10, 0.05, 1e-3);
   scene.initial_velocity = [](const Vec2&) { return Vec2(3e-3, -2e-3); };
-  const auto simulation = make_simulation(scene, sph(), 1);
+  const auto simulation = make_sph_solver(scene, sph(), 1);
   const Particles seeded = simulation->particles();
   const double dt = 1e-3;
   for (int k = 0; k < 700; ++k) simulation->advance(k * dt, dt);  // 2.1 and 1.4 boxes
@@ -174,12 +172,12 @@ TEST_CASE("SPH carries a lattice along without change", "[sph]") {
 TEST_CASE("SPH's fitted field is exact for quadratic motion, and refuses walls that are too close", "[sph]") {
   Scene scene = box(12, 0, 1e-3);
   scene.initial_velocity = [](const Vec2& x) { return Vec2(x.x() * x.y(), x.y() * x.y() - 2 * x.x()); };
-  const auto simulation = make_simulation(scene, sph(), 1);
+  const auto simulation = make_sph_solver(scene, sph(), 1);
   const Vec2 point(0.43e-3, 0.51e-3);  // far from the sides, where the motion is not periodic
   const Vec2 expected(point.x() * point.y(), point.y() * point.y() - 2 * point.x());
   CHECK((simulation->grid_field({point}, 0).front() - expected).norm() < 1e-15);
   Mat2 gradient;
   gradient << point.y(), point.x(), -2, 2 * point.y();
   CHECK((simulation->grid_gradient({point}, 0).front() - gradient).norm() < 1e-11);
-  CHECK_THROWS_AS(make_simulation(channel(3, 4, 0), sph(), 1), SceneError);
+  CHECK_THROWS_AS(make_sph_solver(channel(3, 4, 0), sph(), 1), SceneError);
 }
