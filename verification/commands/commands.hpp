@@ -9,6 +9,11 @@
 // Mistakes of the user are thrown (ConfigError, reports::IoError) and become exit code 2 in main.
 namespace verification {
 
+struct ListOptions {
+  std::filesystem::path studies;
+  std::string suite = "deep";
+  bool names = false;  ///< nothing but names, for scripts and completion
+};
 int list_command(const ListOptions& options);
 
 struct ExplainOptions {
