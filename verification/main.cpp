@@ -108,6 +108,7 @@ int dispatch(int argc, char** argv) {
   validate_app->add_option("DATA", validate.data, "Table of measurements (CSV)")->required();
   validate_app->add_option("--result", validate.result, "Directory of results, or one with a profile.csv")
       ->required();
+  validate_app->add_option("--quantity", validate.quantity, "Quantity of the table (default: the only one)");
   validate_app->add_option("--run", validate.runs, "Runs of one ladder in that directory, coarse to fine");
   validate_app
       ->add_option("--largest-error", validate.largest_error,

@@ -61,6 +61,7 @@ int compare_command(const CompareOptions& options);
 
 struct ValidateOptions {
   std::filesystem::path data, result, out;
+  std::string quantity;           ///< of the table; empty: the only one
   std::vector<std::string> runs;  ///< of a result directory, coarse to fine; empty: profile.csv
   double largest_error = 0;       ///< model error that is borne, in the unit of the table
   double coverage = 2, velocity = 0, length = 0, formal_order = 2;

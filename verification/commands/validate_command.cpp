@@ -53,11 +53,13 @@ LoadedRun load(const std::filesystem::path& dir, const std::string& run) {
 
 /// Cell sizes of a ladder from the numbers of cells in runs.csv: only their ratios matter.
 std::vector<double> steps_of(const std::filesystem::path& dir, const std::vector<std::string>& runs) {
-  const reports::Results results = reports::read_results(dir);
+  using Run = reports::RunRecord;
+  const std::vector<Run> all = reports::read_csv(
+      dir / "runs.csv", std::make_tuple(column("run", &Run::run), column("cells", &Run::cells)));
   std::vector<double> steps;
   for (const std::string& name : runs) {
-    const auto run = std::ranges::find(results.runs, name, &reports::RunRecord::run);
-    if (run == results.runs.end()) throw ConfigError((dir / "runs.csv").string() + ": no run '" + name + "'");
+    const auto run = std::ranges::find(all, name, &Run::run);
+    if (run == all.end()) throw ConfigError((dir / "runs.csv").string() + ": no run '" + name + "'");
     if (run->cells < 1) throw ConfigError((dir / "runs.csv").string() + ": run '" + name + "' has no cells");
     steps.push_back(1.0 / static_cast<double>(run->cells));
     if (steps.size() > 1 && !(steps.back() < steps[steps.size() - 2]))
@@ -65,6 +67,17 @@ std::vector<double> steps_of(const std::filesystem::path& dir, const std::vector
                         "' is not finer than the run before it; name them coarse to fine");
   }
   return steps;
+}
+
+/// One quantity at a time: the largest error that is borne has its unit.
+MeasurementTable chosen_rows(MeasurementTable table, const std::string& quantity) {
+  const std::string wanted = quantity.empty() ? table.rows.front().quantity : quantity;
+  const auto other = [&](const Measurement& row) { return row.quantity != wanted; };
+  if (quantity.empty() && std::ranges::any_of(table.rows, other))
+    throw ConfigError(table.file.string() + ": holds several quantities; choose one with --quantity");
+  std::erase_if(table.rows, other);
+  if (table.rows.empty()) throw ConfigError(table.file.string() + ": no value of '" + wanted + "'");
+  return table;
 }
 
 void print_point(const reports::ValidationRecord& r) {
@@ -78,7 +91,7 @@ void print_point(const reports::ValidationRecord& r) {
 }  // namespace
 
 int validate_command(const ValidateOptions& options) {
-  const MeasurementTable table = read_measurements(options.data);
+  const MeasurementTable table = chosen_rows(read_measurements(options.data), options.quantity);
   ComparisonRules rules;
   rules.coverage = options.coverage;
   rules.velocity = options.velocity;
