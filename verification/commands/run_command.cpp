@@ -65,7 +65,7 @@ void warn_of_steps(const std::vector<Study>& studies) {
     const bool fate_declared = std::ranges::any_of(study.checks, [](const CheckSpec& check) {
       return check.kind == "divergence" || check.kind == "outcome";
     });
-    if (fate_declared || !study.solver_command.empty()) continue;
+    if (fate_declared || study.solver) continue;
     for (const PlannedRun& run : study.runs)
       if (const std::string warning = step_warning(run.scene); !warning.empty()) {
         warn("warning: run {}: {}\n", run.run, warning);
