@@ -84,18 +84,6 @@ TEST_CASE("studies that prove nothing, or say what nobody reads, are refused wit
   refused(with("dt = 1e-3", "dt = 1e-3\ncfl_viscous = 0.1"), "cfl_viscous");
 }
 
-TEST_CASE("levels of a time ladder that would be run with other steps than they say are refused") {
-  const auto ladder = [](const std::string& levels) {
-    return replaced(with("axis = \"space\"\ncells = [8, 16]", "axis = \"time\"\ndt = " + levels),
-                    "theoretical = 2", "theoretical = 1");
-  };
-  CHECK_NOTHROW(read(ladder("[1e-3, 5e-4, 2.5e-4]")));
-  CHECK_THROWS_WITH(read(ladder("[3e-3, 5e-4, 2.5e-4]")),
-                    contains("'ladder.dt': 0.003 s does not divide the time"));
-  CHECK_THROWS_WITH(read(ladder("[0.1, 5e-4, 2.5e-4]")), contains("'ladder.dt'"));
-  CHECK_NOTHROW(read(ladder("[1e-3, 5e-4, 7e-5]")));  // 142.9 steps
-}
-
 TEST_CASE("a NaN never passes, whatever the bounds") {
   const Study study = read(good);
   StudyData data;
