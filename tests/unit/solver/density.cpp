@@ -32,7 +32,7 @@ TEMPLATE_TEST_CASE("the density update follows a linear velocity field by the vo
   l << 0.7, -1.9, 2.3, -0.4;
   VectorField velocity(grid.size());  // splines reproduce x from their control points
   for (std::size_t i = 0; i < grid.size(); ++i) velocity[i] = l * grid.control_point(i);
-  const auto update = make_stress_update<TestType>(scene.fluid);
+  const auto update = make_stress_update<TestType>(scene, Scheme{});
   const double dt = 0.05;
 
   Particles compressed = seed_particles(scene), updated = compressed;
