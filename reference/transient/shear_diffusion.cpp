@@ -255,6 +255,7 @@ bool ShearDiffusion::iterate(double h, const std::vector<double>& start, Stages&
         const double w_old = w[i][j], tau_old = tau[i][j];
         if (unknown_ == Unknown::kStress) {
           tau[i][j] += change[i][j];
+          if (!(std::abs(tau[i][j]) < 1e60)) return false;  // astray: no rate need exist there
           w[i][j] = curve_.rate(tau[i][j]);
         } else {
           w[i][j] += change[i][j];
