@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "solver/kernel/isa.hpp"
@@ -268,7 +269,17 @@ TEST_CASE("a part of a sweep without cells touches no node: it may be another th
   const double polynomials[] = {1, 0, -1, 1, 1, 0, -1, 1};  // 1 - s and s in both cells, as Axis gives them
   const PointState point{{0.5, 0.5}, {1, 1}, 1, 1, {1, 1, 1}};
   const LineOfCells axis{2, false, 2, 1, polynomials};
-  const auto kernel = make_kernel({1, false, {axis, axis}, Newtonian{1}, true, {1, 1}, &point, 1, 1});
+  const auto kernel = make_kernel({.degree = 1,
+                                   .strip = false,
+                                   .axis = {axis, axis},
+                                   .rheology = Newtonian{1},
+                                   .has_pressure = true,
+                                   .has_cell_pressure = false,
+                                   .pressure = {{1, 1}, 0},
+                                   .most_inverse_mass = std::numeric_limits<double>::infinity(),
+                                   .points = &point,
+                                   .count = 1,
+                                   .shares = 1});
   const NodeFields nodes = kernel->nodes();
   // Adding nothing to it would turn it into +0.
   double* const fields[] = {nodes.inverse_mass, nodes.velocity[0], nodes.mapped[0], nodes.acceleration[0]};

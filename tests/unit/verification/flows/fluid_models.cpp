@@ -29,7 +29,7 @@ TEST_CASE("solver and reference are told the same fluid, with every parameter of
   for (const char* const text : fluids) {
     INFO(text);
     const FluidConfig fluid =
-        read_fluid(TomlTable::from_text(std::string(text) + "pressure = false\n", "fluid.toml"));
+        read_fluid(TomlTable::from_text(std::string(text) + "pressure = false\n", "fluid.toml"), 20);
     CHECK(fluid.solver.density == 700);
     double largest = 0;
     for (const double rate : {1e-3, 0.05, 0.4, 1.0, 3.0, 17.0}) {

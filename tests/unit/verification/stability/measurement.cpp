@@ -21,9 +21,13 @@ std::vector<Scheme> all_schemes() {
   std::vector<Scheme> schemes;
   for (const auto& basis : mpm::basis_parts())
     for (const auto& transfer : mpm::transfer_parts())
-      for (const auto& stepping : mpm::stepping_parts())
-        schemes.push_back({mpm::basis_named(basis.name), mpm::transfer_named(transfer.name),
-                           mpm::stepping_named(stepping.name), 0.8});
+      for (const auto& stepping : mpm::stepping_parts()) {
+        Scheme& scheme = schemes.emplace_back();
+        scheme.basis = mpm::basis_named(basis.name);
+        scheme.transfer = mpm::transfer_named(transfer.name);
+        scheme.stepping = mpm::stepping_named(stepping.name);
+        scheme.flip_fraction = 0.8;
+      }
   return schemes;
 }
 
