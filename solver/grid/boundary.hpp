@@ -68,7 +68,8 @@ class WallNodes {
 
   /// Sets the wall's mean acceleration (V(t + dt) - V(t))/dt, which brings its nodes to V(t + dt) exactly.
   void impose_mean_acceleration(VectorField& acceleration, double t, double dt) const {
-    impose(acceleration, [&](const Node& n) { return (velocity_of(n, t + dt) - velocity_of(n, t)) / dt; });
+    impose(acceleration,
+           [&](const Node& n) -> Vec2 { return (velocity_of(n, t + dt) - velocity_of(n, t)) / dt; });
   }
 
   /// Adds to the nodal acceleration what walls that let the fluid slip do to it over dt, by backward Euler:

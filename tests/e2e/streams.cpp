@@ -39,11 +39,10 @@ TEST_CASE("closed and full streams: no crash, no message in a table, one end for
   CHECK(shell("{ {} run no-such-study; echo $? > " + (scratch / "code").string() +
               "; } 2>&1 | true; grep -q 2 " + (scratch / "code").string()) == 0);
 
-  for (const std::string& command :
-       {"run " + file + " --out " + out, "list", "report " + whole, "compare " + whole + " " + whole,
-        "solve " + scene + " --out " + (scratch / "solved").string(),
-        "reference " + scene + " --out " + (scratch / "exact").string(), std::string("--help"),
-        std::string("--version")}) {
+  for (const std::string& command : std::initializer_list<std::string>{
+           "run " + file + " --out " + out, "list", "report " + whole, "compare " + whole + " " + whole,
+           "solve " + scene + " --out " + (scratch / "solved").string(),
+           "reference " + scene + " --out " + (scratch / "exact").string(), "--help", "--version"}) {
     INFO(command);
     CHECK(shell("{} " + command + " > /dev/full 2> " + (scratch / "said").string()) == 2);
     CHECK_THAT(content_of(scratch / "said"), contains("the output could not be written"));

@@ -134,7 +134,7 @@ TEST_CASE("below the yield stress the regularised fluid creeps, as 1/m") {
 }
 
 TEST_CASE("transient of a regularised yield stress: two discretisations agree, start-up and cessation") {
-  const double n = GENERATE(0.6, 1.0, 1.4);
+  const double n = GENERATE(1.0, 1.4);  // from rest, n < 1 has no finite viscosity to start with
   const bool cessation = GENERATE(false, true);
   INFO("n = " << n << (cessation ? ", cessation" : ", start-up"));
   ChannelProblem problem{kHeight, cessation ? 0.0 : kForce, 0.0, fluid(n, 0.25, 50.0), {0.01, 0.02}};

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double height = 1e-3, nu = 1e-6, force = 8e-3;
 
-SphScheme sph_scheme(SphScheme::Wall wall = SphScheme::Wall::Mirror, double smoothing = 0) {
+SphScheme with_sph(SphScheme::Wall wall = SphScheme::Wall::Mirror, double smoothing = 0) {
   SphScheme scheme;
   scheme.wall = wall;
   scheme.smoothing = smoothing;
@@ -69,10 +69,10 @@ double order(double coarse, double fine, double ratio) {
 }  // namespace
 
 TEST_CASE("SPH between mirrors is second order in the spacing, beside fixed wall particles first", "[sph]") {
-  const double p_mirror = order(steady_error(12, sph_scheme()), steady_error(24, sph_scheme()), 2);
+  const double p_mirror = order(steady_error(12, with_sph()), steady_error(24, with_sph()), 2);
   CHECK(p_mirror > 1.9);
   CHECK(p_mirror < 2.3);
-  const SphScheme morris = sph_scheme(SphScheme::Wall::Morris);
+  const SphScheme morris = with_sph(SphScheme::Wall::Morris);
   const double p_morris = order(steady_error(12, morris), steady_error(24, morris), 2);
   CHECK(p_morris > 0.8);
   CHECK(p_morris < 1.4);
@@ -80,8 +80,8 @@ TEST_CASE("SPH between mirrors is second order in the spacing, beside fixed wall
 
 TEST_CASE("SPH is second order in the smoothing length", "[sph]") {
   // What the kernel smooths is ~ h^2; at 1.5 and 3 spacings sums over the lattice are integrals to 1e-4.
-  const double p = order(steady_error(32, sph_scheme(SphScheme::Wall::Mirror, 3.0)),
-                         steady_error(32, sph_scheme(SphScheme::Wall::Mirror, 1.5)), 2);
+  const double p = order(steady_error(32, with_sph(SphScheme::Wall::Mirror, 3.0)),
+                         steady_error(32, with_sph(SphScheme::Wall::Mirror, 1.5)), 2);
   CHECK(p > 1.8);
   CHECK(p < 2.2);
 }
@@ -89,7 +89,7 @@ TEST_CASE("SPH is second order in the smoothing length", "[sph]") {
 TEST_CASE("SPH conserves mass, and changes momentum by body and wall forces alone", "[sph]") {
   for (const SphScheme::Wall wall : {SphScheme::Wall::Mirror, SphScheme::Wall::Morris})
     for (const SphScheme::Density density : {SphScheme::Density::Continuity, SphScheme::Density::Summation}) {
-      SphScheme scheme = sph_scheme(wall);
+      SphScheme scheme = with_sph(wall);
       scheme.density = density;
       INFO(name(wall) << " " << name(density));
       Scene scene = channel(12, 10, 0.05);
@@ -112,7 +112,7 @@ TEST_CASE("SPH gives the same bits on any number of threads", "[sph]") {
   Scene scene = channel(20, 30, 0.05);
   scene.seeding.displacement = 0.3;
   scene.fluid.rheology = PowerLaw{1e-3, 0.8, 1e-2, 10};
-  const auto one = make_sph_solver(scene, sph_scheme(), 1), three = make_sph_solver(scene, sph_scheme(), 3);
+  const auto one = make_sph_solver(scene, with_sph(), 1), three = make_sph_solver(scene, with_sph(), 3);
   for (int k = 0; k < 30; ++k) {
     one->advance(k * 5e-5, 5e-5);
     three->advance(k * 5e-5, 5e-5);
@@ -125,7 +125,7 @@ TEST_CASE("SPH gives the same bits on any number of threads", "[sph]") {
 
 TEST_CASE("SPH steps are stable up to the limit that its symbols give, and no further", "[sph]") {
   const auto growth = [](const Scene& scene, double dt, int steps) {
-    const auto simulation = make_sph_solver(scene, sph_scheme(), 1);
+    const auto simulation = make_sph_solver(scene, with_sph(), 1);
     const double before = simulation->totals().kinetic_energy;
     for (int k = 0; k < steps; ++k) simulation->advance(k * dt, dt);
     return simulation->totals().kinetic_energy / before;
@@ -137,7 +137,7 @@ TEST_CASE("SPH steps are stable up to the limit that its symbols give, and no fu
       return Vec2(1e-9 * std::sin(1e7 * x.x() * x.x() + 2e4 * x.y()), 0);
     };
     const double h = scene.cell_size(0);
-    const double limit = stable_sph_step(sph_scheme(), scene).viscous * h * h / nu;
+    const double limit = stable_sph_step(with_sph(), scene).viscous * h * h / nu;
     CHECK(growth(scene, 0.97 * limit, 400) < 1);
     CHECK(growth(scene, 1.05 * limit, 400) > 1e3);
   }
@@ -146,7 +146,7 @@ TEST_CASE("SPH steps are stable up to the limit that its symbols give, and no fu
     scene.initial_velocity = [](const Vec2& x) {
       return Vec2(1e-12 * std::sin(1e7 * x.x() * x.x() + 2e4 * x.y()), 0);
     };
-    const double limit = stable_sph_step(sph_scheme(), scene).acoustic * scene.cell_size(0);
+    const double limit = stable_sph_step(with_sph(), scene).acoustic * scene.cell_size(0);
     CHECK(growth(scene, 0.97 * limit, 400) < 50);  // neutrally stable: energy goes to and fro
     CHECK(growth(scene, 1.06 * limit, 400) > 1e6);
   }
@@ -155,7 +155,7 @@ TEST_CASE("SPH steps are stable up to the limit that its symbols give, and no fu
 TEST_CASE("SPH carries a lattice along without change", "[sph]") {
   Scene scene = box(10, 0.05, 1e-3);
   scene.initial_velocity = [](const Vec2&) { return Vec2(3e-3, -2e-3); };
-  const auto simulation = make_sph_solver(scene, sph_scheme(), 1);
+  const auto simulation = make_sph_solver(scene, with_sph(), 1);
   const Particles seeded = simulation->particles();
   const double dt = 1e-3;
   for (int k = 0; k < 700; ++k) simulation->advance(k * dt, dt);  // 2.1 and 1.4 boxes
@@ -172,12 +172,12 @@ TEST_CASE("SPH carries a lattice along without change", "[sph]") {
 TEST_CASE("SPH's fitted field is exact for quadratic motion, and refuses walls that are too close", "[sph]") {
   Scene scene = box(12, 0, 1e-3);
   scene.initial_velocity = [](const Vec2& x) { return Vec2(x.x() * x.y(), x.y() * x.y() - 2 * x.x()); };
-  const auto simulation = make_sph_solver(scene, sph_scheme(), 1);
+  const auto simulation = make_sph_solver(scene, with_sph(), 1);
   const Vec2 point(0.43e-3, 0.51e-3);  // far from the sides, where the motion is not periodic
   const Vec2 expected(point.x() * point.y(), point.y() * point.y() - 2 * point.x());
   CHECK((simulation->grid_field({point}, 0).front() - expected).norm() < 1e-15);
   Mat2 gradient;
   gradient << point.y(), point.x(), -2, 2 * point.y();
   CHECK((simulation->grid_gradient({point}, 0).front() - gradient).norm() < 1e-11);
-  CHECK_THROWS_AS(make_sph_solver(channel(3, 4, 0), sph_scheme(), 1), SceneError);
+  CHECK_THROWS_AS(make_sph_solver(channel(3, 4, 0), with_sph(), 1), SceneError);
 }
