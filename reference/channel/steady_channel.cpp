@@ -46,8 +46,8 @@ double bent_integral(const FlowCurve& curve, double low, double high, double sca
 double yielding_integral(const FlowCurve& curve, double low, double high) {
   const double tau_y = curve.yielding()->tau_y;
   const double scale = (high - low) * std::max(std::abs(curve.rate(low)), std::abs(curve.rate(high)));
-  // Beside the yield stress lies a layer of rates of a few 1/m, which a rule over a longer piece would step over
-  // without noticing.
+  // Beside the yield stress lies a layer of rates of a few 1/m, which a rule over a longer piece would step
+  // over without noticing.
   std::vector<double> bends{-tau_y, 0.0, tau_y, high};
   if (std::isfinite(curve.yielding()->m)) {
     for (double x = 0.25; x < 100.0; x *= 2.0) {

@@ -6,9 +6,9 @@
 
 #include "verification/commands/commands.hpp"
 #include "verification/commands/output.hpp"
-#include "verification/scene/scene_cost.hpp"
 #include "verification/reading/study_folder.hpp"
 #include "verification/reading/study_reader.hpp"
+#include "verification/scene/scene_cost.hpp"
 
 namespace verification {
 namespace {
@@ -48,7 +48,7 @@ void print_scene(const Study& study) {
   say("flow        {}, {}\n", scene.flow_name, scene.fluid.label);
   if (!study.solver)
     say("scheme      {}, {}, {}{}\n", mpm::name(scene.scheme.basis), mpm::name(scene.scheme.transfer),
-               mpm::name(scene.scheme.stepping), study.variants.size() > 1 ? " (first variant)" : "");
+        mpm::name(scene.scheme.stepping), study.variants.size() > 1 ? " (first variant)" : "");
   else
     say("solver      {}: {}\n", study.solver->name, fmt::join(study.solver->command, " "));
   say("until       {:.6g} s, {} output times\n", scene.outputs.back(), scene.outputs.size());
@@ -71,8 +71,7 @@ int explain_command(const ExplainOptions& options) {
   if (!study.runs.empty()) print_scene(study);
   say("variants    {}\n", joined(study.variants));
   const std::size_t jobs = study.runs.size() + study.stability.cases.size();
-  say(
-      "costs       {} runs{}, {:.3g} particle-steps, about {:.1f} s on one core\n", jobs,
+  say("costs       {} runs{}, {:.3g} particle-steps, about {:.1f} s on one core\n", jobs,
       study.repetitions > 0 ? fmt::format(", each timed {} times after a warm-up", study.repetitions) : "",
       study.particle_steps(), study.particle_steps() * (study.repetitions + 1) / particle_steps_per_second);
   say("\nchecks, and why those bounds:\n");
@@ -89,8 +88,7 @@ int explain_command(const ExplainOptions& options) {
       }))
     say("- runs that did not complete: 0\n  no run of this study is expected to diverge\n");
   for (const ClaimSpec& claim : study.claims)
-    say("\nclaim ({}): {}\n  declared: {}. {}\n", claim.source, claim.statement, claim.verdict,
-               claim.note);
+    say("\nclaim ({}): {}\n  declared: {}. {}\n", claim.source, claim.statement, claim.verdict, claim.note);
   if (!study.figures.empty()) say("\nfigures:\n");
   for (const auto& figure : study.figures) say("- {} ({})\n", figure.title, figure.kind);
   return 0;

@@ -81,11 +81,10 @@ MeasurementTable chosen_rows(MeasurementTable table, const std::string& quantity
 }
 
 void print_point(const reports::ValidationRecord& r) {
-  say("{:<4} {:<16} {:>10} {:>10} {:>12} {:>12} {:>11} {:>9} {:>9} {:>9} {}\n",
-             r.borne ? "pass" : "FAIL", r.quantity, reports::number(r.t),
-             std::isnan(r.y) ? "-" : reports::number(r.y), reports::number(r.measured),
-             reports::number(r.simulated), reports::number(r.error, 3), reports::number(r.u_num, 2),
-             reports::number(r.u_input, 2), reports::number(r.u_data, 2), r.verdict);
+  say("{:<4} {:<16} {:>10} {:>10} {:>12} {:>12} {:>11} {:>9} {:>9} {:>9} {}\n", r.borne ? "pass" : "FAIL",
+      r.quantity, reports::number(r.t), std::isnan(r.y) ? "-" : reports::number(r.y),
+      reports::number(r.measured), reports::number(r.simulated), reports::number(r.error, 3),
+      reports::number(r.u_num, 2), reports::number(r.u_input, 2), reports::number(r.u_data, 2), r.verdict);
 }
 
 }  // namespace
@@ -126,13 +125,12 @@ int validate_command(const ValidateOptions& options) {
   append_comparison(data, "", compare_table(table, runs, rules, Missing::Refuse));
 
   say("{}\n{:<4} {:<16} {:>10} {:>10} {:>12} {:>12} {:>11} {:>9} {:>9} {:>9} verdict at k = {:g}\n",
-             table.source, "", "quantity", "t", "y", "D", "S", "E", "u_num", "u_input", "u_D",
-             options.coverage);
+      table.source, "", "quantity", "t", "y", "D", "S", "E", "u_num", "u_input", "u_D", options.coverage);
   for (const reports::ValidationRecord& point : data.validation) print_point(point);
   for (const reports::JointValidationRecord& joint : data.joint_validation)
     say("{}: d^2 = {} of {} values, p = {}; bias {}, scatter {}\n", joint.quantity,
-               reports::number(joint.distance_squared), joint.points, reports::number(joint.p_value, 3),
-               reports::number(joint.bias), reports::number(joint.scatter, 3));
+        reports::number(joint.distance_squared), joint.points, reports::number(joint.p_value, 3),
+        reports::number(joint.bias), reports::number(joint.scatter, 3));
   const bool passed = std::ranges::all_of(data.validation,
                                           [](const reports::ValidationRecord& point) { return point.borne; });
   if (!options.out.empty()) {
