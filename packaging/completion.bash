@@ -1,7 +1,7 @@
 # Completion of mpm-verify for bash: verbs, options of each verb, studies by name.
 _mpm_verify() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} verb=${COMP_WORDS[1]}
-  local verbs="list explain run compare report solve reference"
+  local verbs="list explain run compare report validate solve reference schema"
   COMPREPLY=()
   case $before in
     --suite) mapfile -t COMPREPLY < <(compgen -W "quick full deep" -- "$word"); return ;;

@@ -48,6 +48,12 @@ int dispatch(int argc, char** argv) {
   explain_app->add_option("STUDY", explain.study, "Name of a study or path of a study file")->required();
   explain_app->add_option("--studies", studies, studies_help);
 
+  SchemaOptions schema;
+  auto* schema_app =
+      app.add_subcommand("schema", "JSON Schema of study files, by which editors complete and check them");
+  auto* scene_schema = schema_app->add_flag("--scene", schema.scene, "Of scene files");
+  schema_app->add_flag("--markdown", schema.markdown, "The page of all keys instead")->excludes(scene_schema);
+
   RunOptions run;
   auto* run_app = app.add_subcommand("run", "Run studies and judge them");
   run_app->add_option("STUDY", run.names,
@@ -170,6 +176,7 @@ int dispatch(int argc, char** argv) {
   run.command_line = scene.command_line = validate.command_line = joined(argc, argv);
   if (*list_app) return list_command(list);
   if (*explain_app) return explain_command(explain);
+  if (*schema_app) return schema_command(schema);
   if (*run_app) return run_command(run);
   if (*compare_app) return compare_command(compare);
   if (*validate_app) return validate_command(validate);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "reference/channel/flow_curve.hpp"
+#include "reference/fluids/flow_curve.hpp"
 
 namespace reference {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/channel/flow_curve.hpp"
+#include "reference/fluids/flow_curve.hpp"
 
 namespace reference {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reference/channel/channel_solution.hpp"
-#include "reference/channel/flow_curve.hpp"
+#include "reference/fluids/flow_curve.hpp"
 
 namespace reference {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "reference/channel/flow_curve.hpp"
+#include "reference/fluids/flow_curve.hpp"
 
 namespace reference {
 

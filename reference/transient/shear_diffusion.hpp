@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "reference/channel/flow_curve.hpp"
+#include "reference/fluids/flow_curve.hpp"
 #include "reference/transient/spectral_line.hpp"
 
 namespace reference {

@@ -9,7 +9,7 @@
 #include "reports/figures/figure_script.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/records/report_data.hpp"
-#include "reports/records/work_precision.hpp"
+#include "reports/summaries/work_precision.hpp"
 
 namespace reports {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "reports/pages/html_matrix.hpp"
-#include "reports/pages/html_stability.hpp"
-#include "reports/records/scoreboard.hpp"
-#include "reports/records/work_precision.hpp"
+#include "reports/pages/sections/matrix.hpp"
+#include "reports/pages/sections/stability.hpp"
+#include "reports/summaries/scoreboard.hpp"
+#include "reports/summaries/work_precision.hpp"
 
 namespace reports {
 namespace {

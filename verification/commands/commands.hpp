@@ -23,6 +23,13 @@ struct ExplainOptions {
 /// Prints what a study runs, what it checks and why those bounds, and what it costs.
 int explain_command(const ExplainOptions& options);
 
+struct SchemaOptions {
+  bool scene = false;     ///< of a scene file, not of a study
+  bool markdown = false;  ///< the page of all keys instead
+};
+/// Prints the JSON Schema of studies, for editors.
+int schema_command(const SchemaOptions& options);
+
 struct RunOptions {
   std::filesystem::path studies;
   std::vector<std::string> names;  ///< of studies, or paths of study files; empty: the suite

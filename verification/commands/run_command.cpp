@@ -10,7 +10,7 @@
 #include "reports/pages/console_table.hpp"
 #include "reports/pages/report.hpp"
 #include "reports/records/result_directory.hpp"
-#include "reports/records/scoreboard.hpp"
+#include "reports/summaries/scoreboard.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/output.hpp"
 #include "verification/commands/provenance_of.hpp"

@@ -13,6 +13,7 @@
 
 #include "reports/files/utf8.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/config/key_journal.hpp"
 #include "verification/config/toml_text.hpp"
 
 namespace verification {
@@ -206,46 +207,56 @@ auto list(const TomlTable& table, const std::string& key, const toml::node* node
 }  // namespace
 
 double TomlTable::number(const std::string& key) {
+  KeyJournal::asked(data_->path + key, "number");
   if (!has(key)) fail_missing(key, "give a number");
   return finite_number(*this, key, data_->table.get(key));
 }
 
 int TomlTable::integer(const std::string& key) {
+  KeyJournal::asked(data_->path + key, "integer");
   if (!has(key)) fail_missing(key, "give a whole number");
   return whole_number(*this, key, data_->table.get(key));
 }
 
 std::string TomlTable::text(const std::string& key) {
+  KeyJournal::asked(data_->path + key, "text");
   if (!has(key)) fail_missing(key, "give a text in quotes");
   return word(*this, key, data_->table.get(key));
 }
 
 std::vector<double> TomlTable::numbers(const std::string& key) {
+  KeyJournal::asked(data_->path + key, "numbers");
   if (!has(key)) fail_missing(key, "give a list of numbers");
   return list(*this, key, data_->table.get(key), finite_number);
 }
 
 std::vector<int> TomlTable::integers(const std::string& key) {
+  KeyJournal::asked(data_->path + key, "integers");
   if (!has(key)) fail_missing(key, "give a list of whole numbers");
   return list(*this, key, data_->table.get(key), whole_number);
 }
 
 std::vector<std::string> TomlTable::texts(const std::string& key) {
+  KeyJournal::asked(data_->path + key, "texts");
   if (!has(key)) fail_missing(key, "give a list of texts");
   return list(*this, key, data_->table.get(key), word);
 }
 
 double TomlTable::number(const std::string& key, double absent) {
+  KeyJournal::absent(data_->path + key, "number", fmt::format("{:g}", absent));
   return has(key) ? number(key) : absent;
 }
 int TomlTable::integer(const std::string& key, int absent) {
+  KeyJournal::absent(data_->path + key, "integer", std::to_string(absent));
   return has(key) ? integer(key) : absent;
 }
 std::string TomlTable::text(const std::string& key, const std::string& absent) {
+  KeyJournal::absent(data_->path + key, "text", absent);
   return has(key) ? text(key) : absent;
 }
 
 bool TomlTable::flag(const std::string& key, bool absent) {
+  KeyJournal::absent(data_->path + key, "flag", absent ? "true" : "false");
   if (!has(key)) return absent;
   if (!data_->table.get(key)->is_boolean()) fail(key, "must be true or false");
   return *data_->table.get(key)->value<bool>();
@@ -258,10 +269,12 @@ double TomlTable::positive(const std::string& key) {
 }
 
 double TomlTable::positive(const std::string& key, double absent) {
+  KeyJournal::absent(data_->path + key, "number", fmt::format("{:g}", absent));
   return has(key) ? positive(key) : absent;
 }
 
 TomlTable TomlTable::table(const std::string& key) {
+  KeyJournal::asked(data_->path + key, "table");
   auto data = std::make_shared<Data>();
   data->origin = data_->origin;
   data->path = data_->path + key + ".";
@@ -273,6 +286,7 @@ TomlTable TomlTable::table(const std::string& key) {
 }
 
 std::vector<TomlTable> TomlTable::tables(const std::string& key) {
+  KeyJournal::asked(data_->path + key, "tables");
   std::vector<TomlTable> result;
   if (!has(key)) return result;
   const toml::array* array = data_->table.get(key)->as_array();

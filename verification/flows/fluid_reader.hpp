@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "reference/channel/flow_curve.hpp"
+#include "reference/fluids/flow_curve.hpp"
 #include "solver/scene/scene.hpp"
 #include "verification/config/toml_table.hpp"
 

@@ -5,13 +5,13 @@
 #include <algorithm>
 
 #include "reports/pages/html/first_screen.hpp"
-#include "reports/pages/html_matrix.hpp"
-#include "reports/pages/html_page.hpp"
-#include "reports/pages/html_scoreboard.hpp"
-#include "reports/pages/html_stability.hpp"
-#include "reports/pages/html_validation.hpp"
-#include "reports/records/scoreboard.hpp"
-#include "reports/records/work_precision.hpp"
+#include "reports/pages/html/page.hpp"
+#include "reports/pages/sections/matrix.hpp"
+#include "reports/pages/sections/scoreboard.hpp"
+#include "reports/pages/sections/stability.hpp"
+#include "reports/pages/sections/validation.hpp"
+#include "reports/summaries/scoreboard.hpp"
+#include "reports/summaries/work_precision.hpp"
 
 namespace reports {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "reports/pages/html/figure.hpp"
-#include "reports/pages/html_study.hpp"
+#include "reports/pages/sections/study.hpp"
 #include "reports/records/chapters.hpp"
 
 namespace reports {

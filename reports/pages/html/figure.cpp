@@ -4,7 +4,7 @@
 
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/html/inline_svg.hpp"
-#include "reports/pages/html_page.hpp"
+#include "reports/pages/html/page.hpp"
 
 namespace reports {
 

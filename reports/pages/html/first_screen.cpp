@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "reports/pages/html_page.hpp"
-#include "reports/pages/html_study.hpp"
+#include "reports/pages/html/page.hpp"
+#include "reports/pages/sections/study.hpp"
 #include "reports/records/changes.hpp"
 
 namespace reports {

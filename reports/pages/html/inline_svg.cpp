@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "reports/pages/html_page.hpp"
+#include "reports/pages/html/page.hpp"
 
 namespace reports {
 namespace {

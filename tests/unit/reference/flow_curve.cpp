@@ -1,4 +1,4 @@
-#include "reference/channel/flow_curve.hpp"
+#include "reference/fluids/flow_curve.hpp"
 
 #include <cmath>
 #include <limits>

@@ -12,7 +12,7 @@
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/pages/console_table.hpp"
-#include "reports/pages/html_page.hpp"
+#include "reports/pages/html/page.hpp"
 #include "reports/pages/junit.hpp"
 #include "reports/pages/report_markdown.hpp"
 #include "reports/records/provenance.hpp"

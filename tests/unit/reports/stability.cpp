@@ -1,8 +1,9 @@
+#include "reports/pages/sections/stability.hpp"
+
 #include <cmath>
 #include <limits>
 
 #include "reports/figures/figures.hpp"
-#include "reports/pages/html_stability.hpp"
 #include "reports/records/result_files.hpp"
 #include "tests/catch.hpp"
 #include "tests/scratch_directory.hpp"

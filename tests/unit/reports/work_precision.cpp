@@ -1,4 +1,4 @@
-#include "reports/records/work_precision.hpp"
+#include "reports/summaries/work_precision.hpp"
 
 #include <cmath>
 #include <limits>

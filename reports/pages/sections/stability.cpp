@@ -1,4 +1,4 @@
-#include "reports/pages/html_stability.hpp"
+#include "reports/pages/sections/stability.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "reports/pages/html_page.hpp"
+#include "reports/pages/html/page.hpp"
 #include "reports/records/report_data.hpp"
 
 namespace reports {

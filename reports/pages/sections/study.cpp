@@ -1,4 +1,4 @@
-#include "reports/pages/html_study.hpp"
+#include "reports/pages/sections/study.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <map>
 #include <set>
 
-#include "reports/pages/html_page.hpp"
+#include "reports/pages/html/page.hpp"
 #include "reports/records/chapters.hpp"
-#include "reports/records/scoreboard.hpp"
-#include "reports/records/work_precision.hpp"
+#include "reports/summaries/scoreboard.hpp"
+#include "reports/summaries/work_precision.hpp"
 
 namespace reports {
 namespace {

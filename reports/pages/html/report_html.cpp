@@ -1,11 +1,11 @@
-#include "reports/pages/report_html.hpp"
+#include "reports/pages/html/report_html.hpp"
 
 #include <fmt/format.h>
 
 #include "reports/pages/html/chapter.hpp"
 #include "reports/pages/html/first_screen.hpp"
 #include "reports/pages/html/inline_svg.hpp"
-#include "reports/pages/html_page.hpp"
+#include "reports/pages/html/page.hpp"
 #include "reports/records/chapters.hpp"
 
 namespace reports {

@@ -1,4 +1,4 @@
-#include "reports/pages/html_page.hpp"
+#include "reports/pages/html/page.hpp"
 
 #include <cctype>
 

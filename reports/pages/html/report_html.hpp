@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "reports/pages/html_study.hpp"
+#include "reports/pages/sections/study.hpp"
 #include "reports/records/report_data.hpp"
 
 namespace reports {

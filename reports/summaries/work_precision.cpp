@@ -1,4 +1,4 @@
-#include "reports/records/work_precision.hpp"
+#include "reports/summaries/work_precision.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "reports/pages/html_page.hpp"
+#include "reports/pages/html/page.hpp"
 #include "reports/pages/report_markdown.hpp"
 #include "reports/records/report_data.hpp"
 

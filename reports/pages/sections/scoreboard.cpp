@@ -1,4 +1,4 @@
-#include "reports/pages/html_scoreboard.hpp"
+#include "reports/pages/sections/scoreboard.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "reports/pages/html_page.hpp"
+#include "reports/pages/html/page.hpp"
 #include "reports/records/report_data.hpp"
-#include "reports/records/scoreboard.hpp"
+#include "reports/summaries/scoreboard.hpp"
 
 namespace reports {
 namespace {

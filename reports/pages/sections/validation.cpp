@@ -1,11 +1,11 @@
-#include "reports/pages/html_validation.hpp"
+#include "reports/pages/sections/validation.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "reports/pages/html_page.hpp"
+#include "reports/pages/html/page.hpp"
 
 namespace reports {
 namespace {

@@ -1,4 +1,4 @@
-#include "reports/records/scoreboard.hpp"
+#include "reports/summaries/scoreboard.hpp"
 
 #include <fmt/format.h>
 
