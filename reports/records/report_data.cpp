@@ -43,7 +43,8 @@ std::vector<StudyRecord> studies_of(const Results& results) {
   for (const CheckRecord& check : results.checks) mention(check.study);
   for (const OrderRecord& order : results.orders) mention(order.study);
   for (const RunRecord& run : results.runs) mention(run.study);
-  for (const FigureRecord& figure : results.figures) mention(figure.study);
+  for (const FigureRecord& figure : results.figures)
+    if (!figure.study.empty()) mention(figure.study);  // a figure of a whole chapter belongs to no study
   return studies;
 }
 

@@ -144,7 +144,8 @@ std::string side_column(const ReportData& data, const std::vector<Chapter>& chap
         chapter.studies.size(), good ? "" : " open");
     list += studies + "</ul></details></li>\n";
   }
-  return "<aside class=\"side\">\n<form class=\"filters\" role=\"search\" onsubmit=\"return false\">\n"
+  return "<aside class=\"side\">\n<details class=\"menu\" open>\n<summary>Contents and "
+         "filters</summary>\n<form class=\"filters\" role=\"search\" onsubmit=\"return false\">\n"
          "<label for=\"search\">Search (key /)</label><input id=\"search\" type=\"search\" "
          "autocomplete=\"off\">\n"
          "<label for=\"filter-status\">Status</label><select id=\"filter-status\"><option "
@@ -158,7 +159,7 @@ std::string side_column(const ReportData& data, const std::vector<Chapter>& chap
          "</select>\n<button type=\"button\" id=\"reset\">Show all</button>\n<p id=\"count\" role=\"status\" "
          "class=\"faint\"></p></form>\n<nav aria-label=\"Contents\">\n<ul>\n<li><a "
          "href=\"#top\">Verdict</a></li>\n" +
-         list + "<li><a href=\"#provenance\">Provenance</a></li>\n</ul>\n</nav>\n</aside>\n";
+         list + "<li><a href=\"#provenance\">Provenance</a></li>\n</ul>\n</nav>\n</details>\n</aside>\n";
 }
 
 std::string provenance_table(const std::optional<Provenance>& provenance) {

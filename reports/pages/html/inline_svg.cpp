@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reports/pages/html/page.hpp"
+#include "reports/pages/html/svg_marks.hpp"
 
 namespace reports {
 namespace {
@@ -195,7 +196,7 @@ std::string inline_svg(const std::string& svg, const std::string& label) {
     at = end + 1;
     if (svg[tag + 1] == '/') {
       const std::string name = svg.substr(tag + 2, end - tag - 2);
-      if (name == "svg") return result + "</svg>";
+      if (name == "svg") return gathered_marks(result) + "</svg>";
       if (open.empty() || open.back().name != name) return "";
       const bool empty = result.size() == open.back().content;
       depth_of_groups -= name == "g";
@@ -219,6 +220,9 @@ std::string inline_svg(const std::string& svg, const std::string& label) {
     const bool closed = svg[end - 1] == '/';
     const Attributes attributes =
         attributes_of(std::string_view(svg).substr(name_end, end - name_end - closed));
+    if (name == "rect" &&
+        std::ranges::count(attributes, std::pair<std::string, std::string>{"fill", "#ffffff"}) > 0)
+      continue;  // the background: the page paints it, and its outline would be drawn
     const std::string slimmed = slim(name, attributes, name == "g" && depth_of_groups <= 2);
     if (closed) {
       result += slimmed + "/>";
@@ -231,31 +235,6 @@ std::string inline_svg(const std::string& svg, const std::string& label) {
     result += tag_text;
   }
   return "";
-}
-
-std::string svg_marks() {
-  // gnuplot 5.4 to 6.0, terminal svg, at the line width of figure_script.cpp.
-  constexpr const char* stroke = "stroke-width=\"0.178\" stroke=\"currentColor\"";
-  std::string marks = "<svg width=\"0\" height=\"0\" aria-hidden=\"true\" class=\"marks\"><defs>";
-  const auto add = [&](const char* shape) { marks += fmt::format(fmt::runtime(shape), stroke); };
-  marks += "<circle id=\"Dot\" r=\"0.5\" stroke-width=\"0.5\" stroke=\"currentColor\"/>";
-  add("<path id=\"Pt0\" {} d=\"M-1,0 h2 M0,-1 v2\"/>");
-  add("<path id=\"Pt1\" {} d=\"M-1,-1 L1,1 M1,-1 L-1,1\"/>");
-  add("<path id=\"Pt2\" {} d=\"M-1,0 L1,0 M0,-1 L0,1 M-1,-1 L1,1 M-1,1 L1,-1\"/>");
-  add("<rect id=\"Pt3\" {} x=\"-1\" y=\"-1\" width=\"2\" height=\"2\"/>");
-  add("<rect id=\"Pt4\" {} fill=\"currentColor\" x=\"-1\" y=\"-1\" width=\"2\" height=\"2\"/>");
-  add("<circle id=\"Pt5\" {} cx=\"0\" cy=\"0\" r=\"1\"/>");
-  marks += "<use href=\"#Pt5\" id=\"Pt6\" fill=\"currentColor\" stroke=\"none\"/>";
-  add("<path id=\"Pt7\" {} d=\"M0,-1.33 L-1.33,0.67 L1.33,0.67 z\"/>");
-  marks +=
-      "<use href=\"#Pt7\" id=\"Pt8\" fill=\"currentColor\" stroke=\"none\"/>"
-      "<use href=\"#Pt7\" id=\"Pt9\" stroke=\"currentColor\" transform=\"rotate(180)\"/>"
-      "<use href=\"#Pt9\" id=\"Pt10\" fill=\"currentColor\" stroke=\"none\"/>"
-      "<use href=\"#Pt3\" id=\"Pt11\" stroke=\"currentColor\" transform=\"rotate(45)\"/>"
-      "<use href=\"#Pt11\" id=\"Pt12\" fill=\"currentColor\" stroke=\"none\"/>";
-  add("<path id=\"Pt13\" {} d=\"M0,1.330 L1.265,0.411 L0.782,-1.067 L-0.782,-1.076 L-1.265,0.411 z\"/>");
-  marks += "<use href=\"#Pt13\" id=\"Pt14\" fill=\"currentColor\" stroke=\"none\"/>";
-  return marks + "</defs></svg>\n";
 }
 
 }  // namespace reports

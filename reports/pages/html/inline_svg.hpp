@@ -9,7 +9,4 @@ namespace reports {
 /// a pixel. `label` is what a screen reader says. "" for a text that is no such SVG.
 std::string inline_svg(const std::string& svg, const std::string& label);
 
-/// The marks that the figures of a page share: once in a page, before the first figure.
-std::string svg_marks();
-
 }  // namespace reports

@@ -6,6 +6,7 @@
 #include "reports/pages/html/first_screen.hpp"
 #include "reports/pages/html/inline_svg.hpp"
 #include "reports/pages/html/page.hpp"
+#include "reports/pages/html/svg_marks.hpp"
 #include "reports/records/chapters.hpp"
 
 namespace reports {

@@ -22,7 +22,7 @@ body { margin: 0; font: 16px/1.5 system-ui, "Segoe UI", Roboto, "Helvetica Neue"
 .side { position: sticky; top: 0; height: 100vh; overflow-y: auto; padding: 1rem; border-right: 1px solid var(--rule);
   background: var(--panel); font-size: .88rem; }
 .side ul { list-style: none; margin: 0; padding: 0; } .side li { margin: .1rem 0; } .side li li { padding-left: .9rem; }
-.side summary { cursor: pointer; } .side a { text-decoration: none; } .side a:hover { text-decoration: underline; }
+.side summary { cursor: pointer; } .menu > summary { display: none; } .side a { text-decoration: none; } .side a:hover { text-decoration: underline; }
 .side a[aria-current] { font-weight: 700; } .side label { display: block; margin-top: .4rem; color: var(--faint); }
 .side input, .side select, .side button { width: 100%; font: inherit; padding: .3rem .4rem; color: var(--text); background: var(--page);
   border: 1px solid var(--rule); border-radius: .3rem; } .side button { margin-top: .5rem; cursor: pointer; }
@@ -70,7 +70,7 @@ code { font-size: .9em; overflow-wrap: anywhere; } td { overflow-wrap: break-wor
 .diverged, .failed { background: #8f2a16; color: #ffffff; } .unexpected { outline: 3px solid #ff0033; outline-offset: -1px; font-weight: 700; }
 .paper-only { display: none; }
 @media (max-width: 60rem) { .layout { display: block; } .side { position: static; height: auto; border-right: 0; border-bottom: 1px solid var(--rule); }
-  .side nav { max-height: 14rem; overflow-y: auto; } main { padding: .75rem .9rem 2rem; } .headlines { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
+  .menu > summary { display: list-item; font-weight: 600; } .side nav { max-height: 14rem; overflow-y: auto; } main { padding: .75rem .9rem 2rem; } .headlines { grid-template-columns: repeat(2, minmax(0, 1fr)); } }
 @media (max-width: 40rem) { th, td { padding: .3rem .4rem; } h1 { font-size: 1.3rem; } .headlines { grid-template-columns: 1fr; } .facts { grid-template-columns: 1fr; }
   table.cards thead { display: none; } table.cards, table.cards tbody, table.cards tr { display: block; }
   table.cards tr { border-bottom: 1px solid var(--rule); padding: .35rem 0; }
@@ -152,8 +152,9 @@ const char* page_script() {
   document.getElementById('reset').addEventListener('click', reset);
   addEventListener('hashchange', reveal);
   addEventListener('keydown', event => {
-    if (event.key === '/' && !/INPUT|SELECT|TEXTAREA/.test(document.activeElement.tagName)) { event.preventDefault(); search.focus(); }
+    if (event.key === '/' && !/INPUT|SELECT|TEXTAREA/.test(document.activeElement.tagName)) { event.preventDefault(); document.querySelector('.menu').open = true; search.focus(); }
   });
+  if (!matchMedia('(min-width: 60rem)').matches) document.querySelector('.menu').open = false; // the verdict comes first
   apply();
   reveal();
   if ('IntersectionObserver' in window) {

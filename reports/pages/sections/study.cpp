@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "reports/pages/html/page.hpp"
 #include "reports/records/chapters.hpp"
@@ -82,12 +84,30 @@ std::string order_table(const std::vector<const OrderRecord*>& orders) {
          note + ".</p>\n";
 }
 
+/// Failures first, then what is demanded with the same bounds for the same reason together, in the order in
+/// which each demand comes first.
+std::vector<const CheckRecord*> by_demand(const std::vector<const CheckRecord*>& checks) {
+  std::map<std::tuple<bool, std::string, std::string, std::string>, std::size_t> place;
+  const auto demand = [](const CheckRecord* check) {
+    return std::tuple{holds(*check), check->reason, bounds(*check), check->unit};
+  };
+  for (const CheckRecord* check : checks) place.emplace(demand(check), place.size());
+  std::vector<const CheckRecord*> sorted = checks;
+  std::ranges::stable_sort(sorted, {}, [&](const CheckRecord* check) {
+    return std::pair{holds(*check), place.at(demand(check))};
+  });
+  return sorted;
+}
+
 }  // namespace
 
 std::string html_checks(const std::vector<const CheckRecord*>& checks, bool with_study) {
+  constexpr std::size_t most_passes = 60;  // a study; failures are all shown
   std::string rows;
+  std::size_t passes = 0;
   const CheckRecord* before = nullptr;
-  for (const CheckRecord* check : checks) {
+  for (const CheckRecord* check : by_demand(checks)) {
+    if (holds(*check) && ++passes > most_passes) continue;
     const bool good = holds(*check);
     const bool alike = before != nullptr && before->reason == check->reason && before->unit == check->unit &&
                        bounds(*before) == bounds(*check);
@@ -105,7 +125,10 @@ std::string html_checks(const std::vector<const CheckRecord*>& checks, bool with
   }
   return html_table(std::string("<th>verdict</th>") + (with_study ? "<th>study</th>" : "") +
                         "<th>check (bounds: their reason)</th><th class=\"n\">observed</th>",
-                    rows);
+                    rows) +
+         (passes > most_passes ? fmt::format("<p class=\"faint\">{} more, which hold, in checks.csv.</p>\n",
+                                             passes - most_passes)
+                               : "");
 }
 
 std::string html_runs(const Results& results, const std::string& study) {

@@ -7,7 +7,9 @@
 #include "reports/figures/gnuplot.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/html/inline_svg.hpp"
+#include "reports/pages/html/svg_marks.hpp"
 #include "reports/pages/report.hpp"
+#include "reports/pages/sections/study.hpp"
 #include "reports/pages/summary.hpp"
 #include "reports/records/changes.hpp"
 #include "reports/records/chapters.hpp"
@@ -103,6 +105,38 @@ TEST_CASE("a figure inside the page keeps its lines, marks and texts", "[reports
   for (int mark = 0; mark <= 14; ++mark) CHECK(count(marks, fmt::format("id=\"Pt{}\"", mark)) == 1);
   CHECK(inline_svg("no image", "x").empty());
   CHECK(inline_svg("<svg viewBox=\"0 0 1 1\"><g>", "x").empty());
+}
+
+TEST_CASE("a run of one mark is said as a group, and nothing else changes", "[reports]") {
+  const std::string mark = R"svg(<use href="#Pt6" transform="translate(40,20)scale(4)" color="#0072b2"/>)svg";
+  const std::string other = R"svg(<use href="#Pt5" transform="translate(8,4)scale(4)" color="#0072b2"/>)svg";
+  CHECK(
+      gathered_marks("<g>" + mark + mark + other + "</g><use id=\"a\"/>") ==
+      R"svg(<g><g transform="scale(4)" color="#0072b2"><use href="#Pt6" x="10" y="5"/><use href="#Pt6" x="10" y="5"/></g>)svg"
+      R"svg(<g transform="scale(4)" color="#0072b2"><use href="#Pt5" x="2" y="1"/></g></g><use id="a"/>)svg");
+}
+
+TEST_CASE("a figure of no study is no study", "[reports]") {
+  ReportData data;
+  data.results = sample_results();
+  const std::size_t studies = studies_of(data.results).size();
+  FigureRecord of_a_chapter;
+  of_a_chapter.figure = of_a_chapter.kind = "computed-measured";
+  data.results.figures.push_back(of_a_chapter);
+  CHECK(studies_of(data.results).size() == studies);
+}
+
+TEST_CASE("a page shows every failure, and sixty of the checks of a study that hold", "[reports]") {
+  std::vector<CheckRecord> records;
+  for (int i = 0; i < 200; ++i)
+    records.push_back(check_of(fmt::format("study-{}", i), i % 2 == 0 ? 2 : 0.5, 0, 1));
+  std::vector<const CheckRecord*> checks;
+  for (const CheckRecord& record : records) checks.push_back(&record);
+  const std::string table = html_checks(checks, false);
+  CHECK(count(table, ">FAIL<") == 100);
+  CHECK(count(table, ">pass<") == 60);
+  CHECK_THAT(table, contains("40 more, which hold, in checks.csv"));
+  CHECK(table.find(">FAIL<") < table.find(">pass<"));
 }
 
 TEST_CASE("a summary stays below its limit whatever fails, and shows failures first", "[reports]") {
