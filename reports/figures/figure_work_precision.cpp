@@ -40,8 +40,7 @@ std::vector<Scheme> schemes_of(const FigureRecord& record, const Results& result
     if (!record.labels.empty()) name = r.label;
     auto found = std::ranges::find(schemes, name, &Scheme::name);
     if (found == schemes.end()) found = schemes.insert(schemes.end(), {name, {}});
-    found->points.push_back(
-        {r.run, wall->second, static_cast<double>(r.run->particles) * static_cast<double>(r.run->steps), 0});
+    found->points.push_back({r.run, wall->second, particle_steps_of(*r.run), 0});
   }
   for (Scheme& scheme : schemes) {
     std::ranges::stable_sort(scheme.points, [](const CostPoint& a, const CostPoint& b) {

@@ -68,7 +68,7 @@ void append_field(std::string& line, double number) {
 }
 
 void append_field(std::string& line, long number) {
-  append_number(line, number);
+  if (number != unknown_count) append_number(line, number);
 }
 
 void append_field(std::string& line, bool truth) {
@@ -99,6 +99,10 @@ bool parse_field(std::string_view field, double& number) {
 }
 
 bool parse_field(std::string_view field, long& number) {
+  if (field.empty()) {
+    number = unknown_count;
+    return true;
+  }
   return parse_number(field, number);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -25,6 +26,9 @@
 // or outer blank. A text
 // that a spreadsheet would take for a formula has an apostrophe before it, which reading takes off.
 namespace reports {
+
+/// A whole number that is not known: an empty field.
+inline constexpr long unknown_count = std::numeric_limits<long>::min();
 
 /// One column: its name in the header and the member that it holds.
 template <class Record, class T>

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "reports/files/csv.hpp"
 #include "reports/pages/html/page.hpp"
 #include "reports/pages/report_markdown.hpp"
 #include "reports/records/report_data.hpp"
@@ -54,6 +55,11 @@ double error_of(const RunRecord& run, const Results& results, const std::string&
   return worst;
 }
 
+double particle_steps_of(const RunRecord& run) {
+  if (run.particles == unknown_count || run.steps == unknown_count) return nan;
+  return static_cast<double>(run.particles) * static_cast<double>(run.steps);
+}
+
 std::vector<CostPoint> best_front(std::vector<CostPoint> points, bool by_wall) {
   std::erase_if(points,
                 [&](const CostPoint& p) { return !std::isfinite(p.error) || !(cost_of(p, by_wall) > 0); });
@@ -85,8 +91,7 @@ std::vector<Cheapest> cheapest_runs(const Results& results) {
     if (table == tables.end())
       table = tables.insert(
           tables.end(), {run.scene, run.fluid, std::vector<CostPoint>(error_targets.size(), CostPoint{})});
-    const CostPoint point{&run, timing->second->wall_s,
-                          static_cast<double>(run.particles) * static_cast<double>(run.steps),
+    const CostPoint point{&run, timing->second->wall_s, particle_steps_of(run),
                           error_of(run, results, "grid", "l2", nan)};
     for (std::size_t i = 0; i < error_targets.size(); ++i) {
       CostPoint& best = table->runs[i];

@@ -24,6 +24,9 @@ double error_of(const RunRecord& run, const Results& results, const std::string&
 /// Points that no other is better than in both cost and error, from cheap to dear: the front of the best.
 std::vector<CostPoint> best_front(std::vector<CostPoint> points, bool by_wall);
 
+/// Particles times steps of a run; NaN where its solver did not say.
+double particle_steps_of(const RunRecord& run);
+
 /// "cubic, full-mass, leapfrog"
 std::string scheme_of(const RunRecord& run);
 

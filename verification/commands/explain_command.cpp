@@ -46,11 +46,13 @@ void print_scene(const Study& study) {
   const PlannedRun& run = study.runs.front();
   const SceneConfig& scene = run.scene;
   say("flow        {}, {}\n", scene.flow_name, scene.fluid.label);
-  if (!study.solver)
+  if (!run.solver)
     say("scheme      {}, {}, {}{}\n", mpm::name(scene.scheme.basis), mpm::name(scene.scheme.transfer),
         mpm::name(scene.scheme.stepping), study.variants.size() > 1 ? " (first variant)" : "");
   else
-    say("solver      {}: {}\n", study.solver->name, fmt::join(study.solver->command, " "));
+    say("solver      {}: {}\n", run.solver->name,
+        run.solver->is_there() ? "results in " + run.solver->results
+                               : fmt::format("{}", fmt::join(run.solver->command, " ")));
   say("until       {:.6g} s, {} output times\n", scene.outputs.back(), scene.outputs.size());
   say("against     {}\n", compared_with(study));
   if (study.ladder.axis != Axis::None) {

@@ -68,9 +68,9 @@ void warn_of_steps(const std::vector<Study>& studies) {
     const bool fate_declared = std::ranges::any_of(study.checks, [](const CheckSpec& check) {
       return check.kind == "divergence" || check.kind == "outcome";
     });
-    if (fate_declared || study.solver) continue;
+    if (fate_declared) continue;
     for (const PlannedRun& run : study.runs)
-      if (const std::string warning = step_warning(run.scene); !warning.empty()) {
+      if (const std::string warning = run.solver ? "" : step_warning(run.scene); !warning.empty()) {
         warn("warning: run {}: {}\n", run.run, warning);
         break;  // one of a study is enough
       }

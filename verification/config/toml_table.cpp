@@ -9,11 +9,13 @@
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <type_traits>
 #include <utility>
 
 #include "reports/files/utf8.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/config/key_journal.hpp"
+#include "verification/config/toml_print.hpp"
 #include "verification/config/toml_text.hpp"
 
 namespace verification {
@@ -23,6 +25,10 @@ struct TomlTable::Data {
   std::string origin;  // file, and variant if any
   std::string path;    // dotted prefix of this table
   std::set<std::string> read;
+  std::shared_ptr<toml::table> defaults;  // noted, by full path; null unless asked for
+
+  template <class Value>
+  Value absent(const std::string& key, const Value& value);
 };
 
 namespace {
@@ -65,50 +71,21 @@ void set_at(toml::table& root, const std::string& path, Value value) {
     if (!table->get_as<toml::table>(key)) table->insert_or_assign(key, toml::table{});
     table = table->get_as<toml::table>(key);
   }
-  table->insert_or_assign(path.substr(begin), value);
-}
-
-std::string quoted(const std::string& text) {
-  std::string literal = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') literal += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      literal += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      literal += c;
-  }
-  return literal + "\"";
-}
-
-std::string printed(const toml::node& node) {
-  if (const auto* text = node.as_string()) return quoted(text->get());
-  if (const auto* integer = node.as_integer()) return fmt::format("{}", integer->get());
-  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
-  if (const auto* number = node.as_floating_point()) {
-    const std::string text =
-        fmt::format("{}", number->get());  // shortest form that reads back to the same bits
-    return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-  }
-  std::string list;
-  if (const auto* array = node.as_array())
-    for (const toml::node& entry : *array) list += (list.empty() ? "" : ", ") + printed(entry);
-  return "[" + list + "]";
-}
-
-/// Values first, then the sub-tables under their full names. (The library's own formatter has undefined
-/// behaviour for arrays of numbers below 0.1: it casts a negative logarithm to an unsigned width.)
-void print_table(std::string& text, const std::string& path, const toml::table& table) {
-  for (const auto& [key, value] : table)
-    if (!value.is_table()) text += std::string(key.str()) + " = " + printed(value) + "\n";
-  for (const auto& [key, value] : table) {
-    if (!value.is_table()) continue;
-    const std::string name = (path.empty() ? "" : path + ".") + std::string(key.str());
-    text += "\n[" + name + "]\n";
-    print_table(text, name, *value.as_table());
-  }
+  table->insert_or_assign(path.substr(begin), std::move(value));
 }
 
 }  // namespace
+
+template <class Value>
+Value TomlTable::Data::absent(const std::string& key, const Value& value) {
+  if (defaults) {
+    if constexpr (std::is_same_v<Value, int>)
+      set_at(*defaults, path + key, static_cast<std::int64_t>(value));
+    else
+      set_at(*defaults, path + key, value);
+  }
+  return value;
+}
 
 TomlTable::TomlTable(std::shared_ptr<Data> data) : data_(std::move(data)) {}
 
@@ -244,20 +221,21 @@ std::vector<std::string> TomlTable::texts(const std::string& key) {
 
 double TomlTable::number(const std::string& key, double absent) {
   KeyJournal::absent(data_->path + key, "number", fmt::format("{:g}", absent));
-  return has(key) ? number(key) : absent;
+  if (has(key)) return number(key);
+  return std::isfinite(absent) ? data_->absent(key, absent) : absent;
 }
 int TomlTable::integer(const std::string& key, int absent) {
   KeyJournal::absent(data_->path + key, "integer", std::to_string(absent));
-  return has(key) ? integer(key) : absent;
+  return has(key) ? integer(key) : data_->absent(key, absent);
 }
 std::string TomlTable::text(const std::string& key, const std::string& absent) {
   KeyJournal::absent(data_->path + key, "text", absent);
-  return has(key) ? text(key) : absent;
+  return has(key) ? text(key) : data_->absent(key, absent);
 }
 
 bool TomlTable::flag(const std::string& key, bool absent) {
   KeyJournal::absent(data_->path + key, "flag", absent ? "true" : "false");
-  if (!has(key)) return absent;
+  if (!has(key)) return data_->absent(key, absent);
   if (!data_->table.get(key)->is_boolean()) fail(key, "must be true or false");
   return *data_->table.get(key)->value<bool>();
 }
@@ -270,7 +248,9 @@ double TomlTable::positive(const std::string& key) {
 
 double TomlTable::positive(const std::string& key, double absent) {
   KeyJournal::absent(data_->path + key, "number", fmt::format("{:g}", absent));
-  return has(key) ? positive(key) : absent;
+  if (has(key)) return positive(key);
+  // A default that could not be written (0 or infinity: "without") is none to write out.
+  return absent > 0 && std::isfinite(absent) ? data_->absent(key, absent) : absent;
 }
 
 TomlTable TomlTable::table(const std::string& key) {
@@ -278,6 +258,7 @@ TomlTable TomlTable::table(const std::string& key) {
   auto data = std::make_shared<Data>();
   data->origin = data_->origin;
   data->path = data_->path + key + ".";
+  data->defaults = data_->defaults;
   if (has(key)) {
     if (!data_->table.get(key)->is_table()) fail(key, "must be a table [" + key + "]");
     data->table = *data_->table.get(key)->as_table();
@@ -335,10 +316,36 @@ void TomlTable::set(const std::string& path, int value) {
   set_at(data_->table, path, static_cast<std::int64_t>(value));
 }
 
+void TomlTable::set(const std::string& path, const std::string& value) {
+  set_at(data_->table, path, value);
+}
+void TomlTable::set(const std::string& path, const std::vector<double>& values) {
+  toml::array list;
+  for (const double value : values) list.push_back(value);
+  set_at(data_->table, path, std::move(list));
+}
+
+void TomlTable::note_defaults() {
+  data_->defaults = std::make_shared<toml::table>();
+}
+
+TomlTable TomlTable::with_defaults() const {
+  auto data = std::make_shared<Data>();
+  data->origin = data_->origin;
+  data->path = data_->path;
+  if (data_->defaults) data->table = *data_->defaults;
+  overlay(data->table, data_->table);
+  return TomlTable(data);
+}
+
 std::string TomlTable::print() const {
-  std::string text;
-  print_table(text, "", data_->table);
-  return text;
+  return printed_toml(data_->table);
+}
+
+std::string TomlTable::print_as(const std::string& name) const {
+  toml::table outer;
+  set_at(outer, name, toml::table(data_->table));
+  return printed_toml(outer);
 }
 
 }  // namespace verification

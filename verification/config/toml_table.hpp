@@ -69,9 +69,18 @@ class TomlTable {
   /// Sets a number at a dotted path ("time.dt"), making tables on the way.
   void set(const std::string& path, double value);
   void set(const std::string& path, int value);
+  void set(const std::string& path, const std::string& value);
+  void set(const std::string& path, const std::vector<double>& values);
+
+  /// From now on notes every default that is taken for an absent key, here and in sub-tables made later.
+  void note_defaults();
+  /// This table with the defaults noted so far written out.
+  [[nodiscard]] TomlTable with_defaults() const;
 
   /// The table as TOML text.
   [[nodiscard]] std::string print() const;
+  /// The same as a table of that name, "[name]" before it.
+  [[nodiscard]] std::string print_as(const std::string& name) const;
 
  private:
   struct Data;

@@ -100,7 +100,7 @@ Reader reader_of(TomlTable& table) {
 
 }  // namespace
 
-FluidConfig read_fluid(TomlTable table, int cells) {
+FluidConfig read_fluid(TomlTable table, int cells, bool may_be_incompressible) {
   FluidConfig fluid;
   const Reader read_model = reader_of(table);
   fluid.kinematic_viscosity = table.positive("kinematic_viscosity");
@@ -117,7 +117,11 @@ FluidConfig read_fluid(TomlTable table, int cells) {
   table.accept("bulk_modulus");
   table.refuse_unknown_keys();  // before the next line: a misspelt `pressure` would be told as a missing
                                 // modulus
-  if (fluid.solver.pressure) fluid.solver.bulk_modulus = table.positive("bulk_modulus");
+  if (!fluid.solver.pressure) return fluid;
+  fluid.incompressible = may_be_incompressible && !table.has("bulk_modulus");
+  const double c = incompressible_sound_speed;
+  fluid.solver.bulk_modulus =
+      fluid.incompressible ? fluid.solver.density * c * c / 7 : table.positive("bulk_modulus");
   return fluid;
 }
 

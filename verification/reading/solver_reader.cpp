@@ -6,34 +6,76 @@
 #include <regex>
 #include <stdexcept>
 
+#include "reports/figures/figures.hpp"
 #include "reports/process/child.hpp"
 #include "verification/checks/check_reader.hpp"
 #include "verification/reading/figure_reader.hpp"
+#include "verification/runs/foreign/delivered_files.hpp"
+#include "verification/scene/handed_scene.hpp"
 
 namespace verification {
 namespace {
 
-std::vector<std::string> read_command(TomlTable& table) {
+std::vector<std::string> read_command(TomlTable& table, const std::string& key) {
   std::vector<std::string> command;
-  if (table.is_text("command")) {
+  if (table.is_text(key)) {
     try {
-      command = reports::split_command(table.text("command"));
+      command = reports::split_command(table.text(key));
     } catch (const std::invalid_argument& error) {
-      table.fail("command", error.what());
+      table.fail(key, error.what());
     }
   } else {
-    command = table.texts("command");
+    command = table.texts(key);
   }
   if (command.empty() || command.front().empty())
-    table.fail("command",
-               "is empty: name the program that runs a scene, or remove [solver] for the built-in one");
-  static const std::regex braces(R"(\{[A-Za-z][A-Za-z0-9_-]*\})");
-  for (const std::string& word : command)
-    for (std::sregex_iterator found(word.begin(), word.end(), braces), end; found != end; ++found)
-      if (std::ranges::count(ForeignSolver::placeholders(), found->str()) == 0)
-        table.fail("command", fmt::format("'{}' is no placeholder; there are {}", found->str(),
-                                          fmt::join(ForeignSolver::placeholders(), " ")));
+    table.fail(key, "is empty: name the program that runs a scene, or remove [solver] for the built-in one");
   return command;
+}
+
+void require_placeholders(const TomlTable& table, const std::string& key, const std::string& word,
+                          const std::vector<std::string>& known) {
+  static const std::regex braces(R"(\{[A-Za-z][A-Za-z0-9_-]*\})");
+  for (std::sregex_iterator found(word.begin(), word.end(), braces), end; found != end; ++found)
+    if (std::ranges::count(known, found->str()) == 0)
+      table.fail(key,
+                 fmt::format("'{}' is no placeholder; there are {}", found->str(), fmt::join(known, " ")));
+}
+
+/// What runs a scene, or where its results lie already.
+void read_source(TomlTable& table, ForeignSolver& solver) {
+  if (table.has("results")) {
+    if (table.has("command"))
+      table.fail("results", "cannot stand beside command: either something is run, or it is there already");
+    solver.results = table.text("results");
+    require_placeholders(table, "results", solver.results, {"{run}"});
+    if (solver.results.empty())
+      table.fail("results", "is empty: name the directory of a run, e.g. \"theirs/{run}\"");
+    return;
+  }
+  solver.command = read_command(table, "command");
+  for (const std::string& word : solver.command)
+    require_placeholders(table, "command", word, ForeignSolver::placeholders());
+}
+
+/// What decides its results besides the scene and the command.
+void read_what_decides(TomlTable& table, ForeignSolver& solver) {
+  if (table.has("version")) {
+    solver.version_command = read_command(table, "version");
+    for (const std::string& word : solver.version_command) require_placeholders(table, "version", word, {});
+    solver.remembered = true;
+  }
+  if (table.has("inputs")) {
+    for (const std::string& word : table.texts("inputs")) {
+      solver.inputs.push_back(solver.directory / word);
+      if (!std::filesystem::exists(solver.inputs.back()))
+        table.fail("inputs", "'" + solver.inputs.back().string() + "' is not there");
+    }
+    solver.remembered = true;
+  }
+  TomlTable options = table.table("options");
+  if (table.has("options")) {
+    solver.options = options.print_as("solver.options");
+  }
 }
 
 std::vector<Record> read_delivers(TomlTable& table) {
@@ -41,32 +83,58 @@ std::vector<Record> read_delivers(TomlTable& table) {
   if (!table.has("delivers")) return records;
   records.clear();
   for (const std::string& word : table.texts("delivers")) {
-    if (word != "profile" && word != "history")
-      table.fail("delivers", "may hold \"profile\" and \"history\", not \"" + word + "\"");
-    records.push_back(word == "profile" ? Record::Profile : Record::History);
+    const auto known = {Record::Profile, Record::History, Record::Shear, Record::State};
+    const auto found = std::ranges::find(known, word, [](Record record) { return name(record); });
+    if (found == known.end())
+      table.fail("delivers",
+                 "may hold \"profile\", \"history\", \"shear\" and \"state\", not \"" + word + "\"");
+    records.push_back(*found);
   }
   if (std::ranges::count(records, Record::Profile) == 0)
     table.fail("delivers", "must hold \"profile\": there is nothing to judge without one");
   return records;
 }
 
+/// Where results are there already, what the first of them holds; else both.
+std::vector<std::string> delivered_locations(const ForeignSolver& solver) {
+  const std::size_t mark = solver.results.find("{run}");
+  if (mark != solver.results.npos) {
+    std::error_code error;
+    const std::filesystem::path parent = solver.results.substr(0, solver.results.rfind('/', mark));
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(parent, error)) {
+      if (entry.path().filename() != "profile.csv") continue;
+      std::vector<std::string> words;
+      for (const Location location : locations_in(entry.path())) words.push_back(name(location));
+      if (!words.empty()) return words;
+    }
+  }
+  return {"grid", "particles"};
+}
+
 }  // namespace
 
 ForeignSolver read_solver(TomlTable table, const std::filesystem::path& study_file) {
   ForeignSolver solver;
-  solver.command = read_command(table);
-  solver.name = table.text("name", std::filesystem::path(solver.command.front()).filename().string());
+  read_source(table, solver);
+  solver.is_named = table.has("name");
+  solver.name = table.text("name", solver.is_there()
+                                       ? std::filesystem::path(solver.results).begin()->string()
+                                       : std::filesystem::path(solver.command.front()).filename().string());
   if (solver.name.empty()) table.fail("name", "is empty: it stands in every table and legend");
   const std::filesystem::path folder = std::filesystem::absolute(study_file).parent_path();
   solver.directory = folder / table.text("working_directory", ".");
   if (!std::filesystem::is_directory(solver.directory))
     table.fail("working_directory", "'" + solver.directory.string() + "' is no directory");
+  if (solver.is_there()) solver.results = (solver.directory / solver.results).string();
+  read_what_decides(table, solver);
+  solver.cores = table.integer("cores", 1);
+  if (solver.cores < 1) table.fail("cores", "must be at least 1");
   TomlTable environment = table.table("environment");
   for (const std::string& key : environment.keys()) solver.environment[key] = environment.text(key);
   solver.timeout = table.positive("timeout", solver.timeout);
   solver.delivers = read_delivers(table);
   for (const std::string& word :
-       table.has("locations") ? table.texts("locations") : std::vector<std::string>{"grid", "particles"}) {
+       table.has("locations") ? table.texts("locations") : delivered_locations(solver)) {
     if (word != "grid" && word != "particles") table.fail("locations", "may hold \"grid\" and \"particles\"");
     solver.locations.push_back(word == "grid" ? Location::Grid : Location::Particles);
   }
@@ -82,21 +150,38 @@ ForeignSolver read_solver(TomlTable table, const std::filesystem::path& study_fi
   return solver;
 }
 
+void give_to(PlannedRun& planned, const std::shared_ptr<const ForeignSolver>& solver,
+             const TomlTable& scene) {
+  planned.solver = solver;
+  if (!solver) return;
+  planned.handed = handed_scene(planned.scene, solver->options);
+  const auto asks_dt = [](const std::string& word) { return word.find("{dt}") != word.npos; };
+  if (!planned.scene.dt_given && std::ranges::any_of(solver->command, asks_dt))
+    scene.fail("time.dt", "is missing, and the solver's command asks for {dt}: give it, or remove {dt}");
+}
+
 void require_delivered(const TomlTable& root, const Study& study) {
-  if (!study.solver) return;
-  const auto require = [&](const std::string& what, const std::string& key, Record record) {
-    if (!study.solver->delivers_record(record))
-      root.fail(key,
-                fmt::format("{} reads the {} of a run, which the study's solver does not deliver: add it to "
-                            "solver.delivers, or remove this",
-                            what, name(record)));
+  const auto require = [&](const std::string& what, const std::string& key, Record record,
+                           const std::vector<std::string>& variants) {
+    for (const PlannedRun& planned : study.runs)
+      if (planned.solver && std::ranges::count(variants, planned.variant) > 0 &&
+          !planned.solver->delivers_record(record))
+        root.fail(
+            key, fmt::format("{} reads the {} of a run, which the study's solver does not deliver: add it to "
+                             "solver.delivers, or remove this",
+                             what, name(record)));
   };
   for (const CheckSpec& check : study.checks)
     for (const Record record : records_of(check))
       require("\"" + check.kind + (check.quantity.empty() ? "" : " of " + check.quantity) + "\"", "check",
-              record);
+              record, check.variants);
   for (const reports::FigureRecord& figure : study.figures)
-    require("a figure of kind \"" + figure.kind + "\"", "figure", record_of_figure(figure.kind));
+    for (const PlannedRun& planned : study.runs) {
+      const std::vector<std::string> drawn = reports::split_list(figure.runs);
+      if (!drawn.empty() && std::ranges::count(drawn, planned.run) == 0) continue;
+      require("a figure of kind \"" + figure.kind + "\"", "figure", record_of_figure(figure.kind),
+              {planned.variant});
+    }
 }
 
 }  // namespace verification

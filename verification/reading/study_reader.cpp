@@ -102,14 +102,22 @@ Ladder ladder_for(const Study& study, const TomlTable& scene) {
   return ladder;
 }
 
+using Solver = std::shared_ptr<const ForeignSolver>;
+
+SceneConfig read_for(const Solver& solver, TomlTable scene) {
+  return read_scene_config(std::move(scene), solver ? SceneFor::Theirs : SceneFor::Ours);
+}
+
 /// Runs that vary the inputs, on the coarsest level: a difference needs no fine grid.
-void plan_input_runs(Study& study, const TomlTable& scene, const Ladder& ladder, const std::string& variant) {
+void plan_input_runs(Study& study, const TomlTable& scene, const Ladder& ladder, const std::string& variant,
+                     const Solver& solver) {
   const std::vector<std::string> names = input_variants(*study.validation, variant);
   const std::vector<TomlTable> scenes = input_scenes(*study.validation, scene);
   for (std::size_t i = 0; i < names.size(); ++i) {
     PlannedRun planned;
     std::string tag;
-    planned.scene = read_scene_config(at_level(scenes[i], ladder, 0, tag));
+    planned.scene = read_for(solver, at_level(scenes[i], ladder, 0, tag));
+    give_to(planned, solver, scenes[i]);
     planned.variant = names[i];
     planned.step = planned.scene.cell_size();
     planned.run = study.name + "." + names[i];
@@ -117,7 +125,7 @@ void plan_input_runs(Study& study, const TomlTable& scene, const Ladder& ladder,
   }
 }
 
-void plan_runs(Study& study, const TomlTable& scene, const std::string& variant) {
+void plan_runs(Study& study, const TomlTable& scene, const std::string& variant, const Solver& solver) {
   const Ladder ladder = ladder_for(study, scene);
   const std::size_t levels = ladder.axis == Axis::Space  ? ladder.cells.size()
                              : ladder.axis == Axis::Time ? ladder.dt.size()
@@ -126,7 +134,8 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
   for (std::size_t level = 0; level < levels; ++level) {
     PlannedRun planned;
     std::string tag;
-    planned.scene = read_scene_config(at_level(scene, ladder, static_cast<int>(level), tag));
+    planned.scene = read_for(solver, at_level(scene, ladder, static_cast<int>(level), tag));
+    give_to(planned, solver, scene);
     if (ladder.axis == Axis::Time)
       for (const mpm::Segment& segment : planned.scene.segments)
         if (std::abs(segment.length(segment.steps - 1) / ladder.dt[level] - 1) > 1e-6)
@@ -145,7 +154,8 @@ void plan_runs(Study& study, const TomlTable& scene, const std::string& variant)
     planned.run = study.name + (variant.empty() ? "" : "." + variant) + (tag.empty() ? "" : "." + tag);
     study.runs.push_back(std::move(planned));
   }
-  if (study.validation && study.validation->compares(variant)) plan_input_runs(study, scene, ladder, variant);
+  if (study.validation && study.validation->compares(variant))
+    plan_input_runs(study, scene, ladder, variant, solver);
 }
 
 /// A study of limits has schemes, and boxes of its own instead of a scene.
@@ -159,19 +169,28 @@ void read_limits(Study& study, TomlTable& root) {
   study.stability.toml = root.restricted_to({"matrix", "stability"}).print();
 }
 
-void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
+/// The study's [solver] with what a variant lays over it, read; null where neither names one.
+Solver solver_of(const TomlTable& root, const TomlTable& variant, const std::string& name,
+                 const std::filesystem::path& file) {
+  TomlTable both = root.restricted_to({"solver"}).overlaid_with(variant.restricted_to({"solver"}), name);
+  if (!both.has("solver")) return nullptr;
+  return std::make_shared<const ForeignSolver>(read_solver(both.table("solver"), file));
+}
+
+void read_variants(Study& study, TomlTable& root, const TomlTable& base, const std::filesystem::path& file) {
+  const Solver all = study.solver ? std::make_shared<const ForeignSolver>(*study.solver) : nullptr;
   if (study.matrix) {
     for (const MatrixEntry& entry : read_matrix(root.table("matrix"))) {
       const TomlTable scheme = TomlTable::from_text(entry.toml(), "matrix");
       study.variants.push_back(entry.variant);
-      plan_runs(study, base.overlaid_with(scheme, "scheme " + entry.variant), entry.variant);
+      plan_runs(study, base.overlaid_with(scheme, "scheme " + entry.variant), entry.variant, all);
     }
   }
   std::vector<TomlTable> variants = root.tables("variant");
 
   if (variants.empty() && !study.matrix) {
     study.variants = {""};
-    plan_runs(study, base, "");
+    plan_runs(study, base, "", all);
     return;
   }
   for (TomlTable& variant : variants) {
@@ -181,8 +200,10 @@ void read_variants(Study& study, TomlTable& root, const TomlTable& base) {
     study.variants.push_back(name);
     const TomlTable overrides = variant.restricted_to(scene_tables());
     for (const std::string& key : scene_tables()) variant.accept(key);
+    const bool own = variant.has("solver");
     variant.refuse_unknown_keys();
-    plan_runs(study, base.overlaid_with(overrides, "variant " + name), name);
+    plan_runs(study, base.overlaid_with(overrides, "variant " + name), name,
+              own ? solver_of(root, variant, "variant " + name, file) : all);
   }
 }
 
@@ -299,7 +320,7 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
   } else {
     for (const std::string& key : scene_tables()) root.accept(key);
     if (root.has("validation")) study.validation = read_validation(root.table("validation"), file, study);
-    read_variants(study, root, root.restricted_to(scene_tables()));
+    read_variants(study, root, root.restricted_to(scene_tables()), file);
     if (study.validation) require_places(study);
     require_comparable(root, study);
     read_scoreboard(root, study);

@@ -18,15 +18,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// A row of the exact density and of the pressure that goes with it; numerical columns NaN.
-reports::StateRow state_at(const SceneConfig& scene, double t, const std::string& location, const Vec2& x,
-                           double exact_density) {
-  const mpm::Fluid& fluid = scene.fluid.solver;
-  return {
-      t,   location,      x.x(), x.y(),
-      nan, exact_density, nan,   reference::tait_pressure(exact_density, fluid.bulk_modulus, fluid.density)};
-}
-
 /// Takes samples of a running simulation.
 class Recorder {
  public:
@@ -74,7 +65,8 @@ class Recorder {
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const auto density = exact_->density(particles.position[p], t);
       if (!density) return;
-      data_.state.push_back(state_at(scene_, t, name(Location::Particles), particles.position[p], *density));
+      data_.state.push_back(
+          exact_state_at(scene_, t, name(Location::Particles), particles.position[p], *density));
       data_.state.back().density = particles.density[p];
       data_.state.back().pressure = eos.pressure(particles.density[p]);
     }
@@ -142,12 +134,21 @@ std::vector<reports::ShearRow> exact_shear(const SceneConfig& scene, const Exact
   return rows;
 }
 
+reports::StateRow exact_state_at(const SceneConfig& scene, double t, const std::string& location,
+                                 const Vec2& x, double exact_density) {
+  const mpm::Fluid& fluid = scene.fluid.solver;
+  return {
+      t,   location,      x.x(), x.y(),
+      nan, exact_density, nan,   reference::tait_pressure(exact_density, fluid.bulk_modulus, fluid.density)};
+}
+
 std::vector<reports::StateRow> exact_state(const SceneConfig& scene, const ExactField& exact) {
   std::vector<reports::StateRow> rows;
   if (!scene.fluid.solver.pressure) return rows;
   for (const double t : scene.outputs)
     for (const Vec2& x : scene.flow->exact_line())
-      if (const auto density = exact.density(x, t)) rows.push_back(state_at(scene, t, "exact", x, *density));
+      if (const auto density = exact.density(x, t))
+        rows.push_back(exact_state_at(scene, t, "exact", x, *density));
   return rows;
 }
 

@@ -18,6 +18,10 @@ std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneC
 /// Shear rate and viscosity of the exact solution on the same points; empty but for channels.
 std::vector<reports::ShearRow> exact_shear(const SceneConfig& scene, const ExactField& exact);
 
+/// A row of an exact density and of the pressure that goes with it; numerical columns NaN.
+reports::StateRow exact_state_at(const SceneConfig& scene, double t, const std::string& location,
+                                 const Vec2& x, double exact_density);
+
 /// Density and pressure of the exact solution on its fine line; empty where it has no density.
 std::vector<reports::StateRow> exact_state(const SceneConfig& scene, const ExactField& exact);
 

@@ -12,6 +12,9 @@
 namespace verification {
 namespace {
 
+/// Flows whose solution holds the speed of sound.
+const std::vector<std::string> compressible_flows = {"acoustic-wave", "tait-column", "uniform-dilatation"};
+
 /// `per_cell`: particles a cell along an axis, where nothing is said.
 Discretisation read_discretisation(TomlTable& table, int per_cell) {
   Discretisation d;
@@ -185,8 +188,11 @@ double SceneConfig::particle_steps() const {
   return static_cast<double>(particles()) * static_cast<double>(steps());
 }
 
-SceneConfig read_scene_config(TomlTable root) {
+SceneConfig read_scene_config(TomlTable root, SceneFor whose) {
   SceneConfig config;
+  const bool theirs = whose == SceneFor::Theirs;
+  for (const char* table : {"protocol", "coordinates", "solver"}) root.accept(table);
+  root.note_defaults();
   config.toml = root.restricted_to(scene_tables()).print();
   TomlTable scheme = root.table("scheme");
   const std::string method = scheme.text("method", "mpm");
@@ -199,10 +205,13 @@ SceneConfig read_scene_config(TomlTable root) {
     config.scheme = read_scheme(scheme);
   TomlTable discretisation = root.table("discretisation");
   config.discretisation = read_discretisation(discretisation, is_sph ? 1 : 2);
-  config.fluid = read_fluid(root.table("fluid"), config.discretisation.cells);
+  TomlTable fluid = root.table("fluid");
+  config.fluid = read_fluid(fluid, config.discretisation.cells, theirs);
   TomlTable scene = root.table("scene");
   config.flow_name = scene.text("flow");
   config.flow = read_flow(scene, config.fluid);
+  if (config.fluid.incompressible && std::ranges::count(compressible_flows, config.flow_name) > 0)
+    fluid.fail_missing("bulk_modulus", "the solution of this flow depends on it");
   const mpm::Seeding seeding = read_seeding(discretisation, config.flow->across());
   if (is_sph && std::ranges::count(seeding.rule, mpm::Seeding::Rule::Gauss) > 0)
     discretisation.fail("seeding", "must be \"even\" for method = \"sph\": its particles have equal mass");
@@ -234,7 +243,11 @@ SceneConfig read_scene_config(TomlTable root) {
   if (config.start > 0 && config.scene.initial_density &&
       !config.flow->exact({config.start})->density(Vec2::Zero(), config.start))
     time.fail("start", "is for flows whose density is known at any time: this one starts at t = 0 only");
-  config.time_step = read_time_step(time, config);
+  config.dt_given = !theirs || time.has("dt") || time.has("cfl_acoustic") || time.has("cfl_viscous");
+  if (config.dt_given)
+    config.time_step = read_time_step(time, config);
+  else
+    config.time_step.dt = config.outputs.back() - config.start;
   time.refuse_unknown_keys();
   root.refuse_unknown_keys();
   try {
@@ -243,6 +256,9 @@ SceneConfig read_scene_config(TomlTable root) {
     root.fail(config.time_step.dt > 0 ? "time.dt" : "scene", error.what());
   }
   require_steps(root, config);
+  TomlTable resolved = root.with_defaults().restricted_to(scene_tables());
+  resolved.set("time.outputs", config.outputs);
+  config.resolved = resolved.print();
   return config;
 }
 

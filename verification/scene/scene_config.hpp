@@ -17,6 +17,7 @@ namespace verification {
 /// file.
 struct SceneConfig {
   std::string toml;       ///< text that reproduces it
+  std::string resolved;   ///< the same with every default written out
   std::string flow_name;  ///< scene.flow
   std::shared_ptr<const Flow> flow;
   FluidConfig fluid;
@@ -30,6 +31,7 @@ struct SceneConfig {
   int history_samples = 0;                   ///< points in the history, evenly spread over the run
   mpm::Scene scene;                          ///< the solver's scene that follows from all this
   std::vector<mpm::Segment> segments;
+  bool dt_given = true;  ///< false only of somebody else's scene: segments then are the spans of outputs
 
   /// Times at which the reference is wanted [s], increasing: start, outputs, and those asked for besides, so
   /// that scenes with different outputs can share one computed reference.
@@ -45,7 +47,12 @@ struct SceneConfig {
 /// The tables that make up a scene, in reading order.
 const std::vector<std::string>& scene_tables();
 
-/// Reads a scene and refuses what the solver could not run. Throws ConfigError.
-SceneConfig read_scene_config(TomlTable root);
+/// Whose solver a scene is for. Somebody else's needs no bulk_modulus (its fluid may be incompressible) and
+/// no time step (it may choose its own).
+enum class SceneFor { Ours, Theirs };
+
+/// Reads a scene and refuses what the solver could not run. Tables that the protocol adds to a scene that is
+/// handed on ([protocol], [coordinates], [solver]) are passed over. Throws ConfigError.
+SceneConfig read_scene_config(TomlTable root, SceneFor whose = SceneFor::Ours);
 
 }  // namespace verification

@@ -10,8 +10,8 @@ std::string name(Record record) {
 }
 
 const std::vector<std::string>& ForeignSolver::placeholders() {
-  static const std::vector<std::string> known = {"{scene}", "{out}",     "{run}",       "{cells}",
-                                                 "{dt}",    "{threads}", "{mpm-verify}"};
+  static const std::vector<std::string> known = {"{scene}", "{out}",     "{run}",   "{cells}",
+                                                 "{dt}",    "{threads}", "{cores}", "{mpm-verify}"};
   return known;
 }
 

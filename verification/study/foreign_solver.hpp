@@ -18,9 +18,19 @@ struct ForeignSolver {
   /// What may stand in its command, and is replaced for every run.
   static const std::vector<std::string>& placeholders();
 
-  std::string name;                  ///< in tables and legends
-  std::vector<std::string> command;  ///< the program and its arguments, with placeholders; no shell reads it
-  std::filesystem::path directory;   ///< where it starts
+  std::string name;      ///< in tables and legends
+  bool is_named = true;  ///< by its study; if not, its run.json may name it
+  /// The program and its arguments, with placeholders; no shell reads it. Empty where `results` is not.
+  std::vector<std::string> command;
+  /// Directory of results that are there already, with {run} in it, instead of a command; "" for none.
+  std::string results;
+  std::vector<std::string> version_command;   ///< prints a version; empty where nothing does
+  std::string options;                        ///< [solver.options] as TOML text, handed on; "" for none
+  std::vector<std::filesystem::path> inputs;  ///< files that decide its results too
+  /// Whether its runs may be kept: the study says what decides them, by `inputs` or `version`.
+  bool remembered = false;
+  int cores = 1;                    ///< that one run keeps busy
+  std::filesystem::path directory;  ///< where it starts
   std::map<std::string, std::string> environment;
   double timeout = 3600;            ///< of a run [s]
   std::vector<Record> delivers;     ///< always a profile
@@ -29,6 +39,8 @@ struct ForeignSolver {
   std::string points_reason;        ///< why fewer than cells will do
 
   [[nodiscard]] bool delivers_record(Record record) const;
+  /// Its results are there already: nothing is run.
+  [[nodiscard]] bool is_there() const { return !results.empty(); }
 };
 
 }  // namespace verification

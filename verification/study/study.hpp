@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,6 +36,11 @@ struct PlannedRun {
   /// Order that theory gives its ladder, on the grid and on the particles.
   double theoretical = std::numeric_limits<double>::quiet_NaN(), theoretical_particles = theoretical;
   SceneConfig scene;
+  std::shared_ptr<const ForeignSolver> solver;  ///< somebody else's; null: ours
+  std::string handed;                           ///< the scene as it is given to that solver
+
+  /// What is written to scenes/RUN.toml.
+  [[nodiscard]] const std::string& scene_text() const { return solver ? handed : scene.toml; }
 };
 
 enum class Axis { None, Space, Time, Mach };
@@ -92,7 +98,8 @@ struct Study {
       headlines;  ///< the same for the report's first screen
   Suite suite = Suite::Full;
   Comparison comparison = Comparison::Exact;
-  std::optional<ForeignSolver> solver;  ///< somebody else's; none: ours
+  /// Somebody else's, of every run; none: ours, or variants name solvers of their own.
+  std::optional<ForeignSolver> solver;
   Ladder ladder;
   bool matrix = false;  ///< its variants are a [matrix] of schemes
   /// Times that each run is simulated to measure what it costs, after a warm-up and with nothing else

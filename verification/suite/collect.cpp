@@ -12,7 +12,8 @@ namespace {
 
 /// What the scenes of a study were declared not to need (DESIGN: model only what a scene needs).
 std::string left_out(const Study& study) {
-  if (study.solver) return "";  // what a foreign solver does without is not ours to say
+  if (std::ranges::any_of(study.runs, [](const PlannedRun& r) { return r.solver != nullptr; }))
+    return "";  // what a foreign solver does without is not ours to say
   if (study.runs.empty()) return "walls (a uniform periodic lattice)";
   const auto all = [&](auto&& holds) { return std::ranges::all_of(study.runs, holds); };
   const auto any = [&](auto&& holds) { return std::ranges::any_of(study.runs, holds); };

@@ -72,8 +72,11 @@ RunCache::RunCache(const fs::path& directory, CacheUse use) : use_(use) {
   }
   runs_ = directory / "runs";
   own_ = runs_ / build_identity();
+  foreign_ = runs_ / "foreign";
+  if (use_ == CacheUse::Only) return;
   std::error_code ignored;
-  fs::create_directories(own_, ignored);
+  for (const fs::path& folder : {own_, foreign_}) fs::create_directories(folder, ignored);
+  fs::last_write_time(foreign_, fs::file_time_type::clock::now(), ignored);
   fs::last_write_time(own_, fs::file_time_type::clock::now(), ignored);  // in use: prune() goes by this
 }
 
@@ -82,15 +85,19 @@ fs::path RunCache::file_of(const std::string& key) const {
 }
 
 fs::path RunCache::file(const Study& study, const PlannedRun& plan) const {
-  return !study.solver ? file_of(key_of(content_of(study, plan))) : fs::path();
+  return !plan.solver ? file_of(key_of(content_of(study, plan))) : fs::path();
 }
 
 std::optional<std::string> RunCache::load(const std::string& content) const {
-  if (use_ != CacheUse::Reuse) return std::nullopt;
   const std::string key = key_of(content);
+  return load_from(file_of(key), key);
+}
+
+std::optional<std::string> RunCache::load_from(const fs::path& file, const std::string& key) const {
+  if (use_ != CacheUse::Reuse && use_ != CacheUse::Only) return std::nullopt;
   std::string bytes;
   try {
-    bytes = reports::read_entry(file_of(key));
+    bytes = reports::read_entry(file);
   } catch (const reports::IoError&) {
     return std::nullopt;
   }
@@ -104,17 +111,40 @@ std::optional<std::string> RunCache::load(const std::string& content) const {
   return bytes;
 }
 
+KeptDeliveries RunCache::deliveries() {
+  KeptDeliveries kept;
+  kept.may_run = may_run();
+  if (!on()) return kept;
+  const auto key_of_text = [](const std::string& text) { return format + ("foreign\n" + text + "\n"); };
+  const auto file = [this](const std::string& key) {
+    return foreign_ / (reports::content_name(key) + ".run");
+  };
+  kept.load = [this, key_of_text, file](const std::string& text) {
+    const std::string key = key_of_text(text);
+    return load_from(file(key), key);
+  };
+  kept.save = [this, key_of_text, file](const std::string& text, const std::string& bytes) {
+    const std::string key = key_of_text(text);
+    save_to(file(key), key, bytes);
+  };
+  return kept;
+}
+
 std::optional<RunData> RunCache::load(const Study& study, const PlannedRun& plan) const {
-  if (study.solver) return std::nullopt;
+  if (plan.solver) return std::nullopt;
   const std::optional<std::string> bytes = load(content_of(study, plan));
   return bytes ? decode_run(*bytes, study, plan) : std::nullopt;
 }
 
 void RunCache::save(const std::string& content, const std::string& bytes) {
-  if (!on()) return;
   const std::string key = key_of(content);
+  save_to(file_of(key), key, bytes);
+}
+
+void RunCache::save_to(const fs::path& file, const std::string& key, const std::string& bytes) {
+  if (!on() || !may_run()) return;
   try {
-    reports::write_file(file_of(key), key + bytes + checksum_of(bytes), reports::Durability::Unsynced);
+    reports::write_file(file, key + bytes + checksum_of(bytes), reports::Durability::Unsynced);
     ++saved_;
   } catch (const reports::IoError& error) {
     if (lost_++ == 0) cause_ = error.error;
@@ -122,7 +152,7 @@ void RunCache::save(const std::string& content, const std::string& bytes) {
 }
 
 void RunCache::save(const Study& study, const RunData& data) {
-  if (!study.solver) save(content_of(study, *data.plan), encode_run(data));
+  if (!data.foreign) save(content_of(study, *data.plan), encode_run(data));
 }
 
 std::string RunCache::warning() const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "verification/runs/foreign/run_foreign.hpp"
 #include "verification/runs/run_data.hpp"
 
 namespace verification {
@@ -13,15 +14,16 @@ namespace verification {
 enum class CacheUse {
   Reuse,    ///< take what is there, add what is not
   Refresh,  ///< run everything, and replace what is there
+  Only,     ///< take what is there; what is not may not be run
   Off       ///< neither read nor write
 };
 
 /// Finished simulations, one file each, found by the content that decides them: the scene as read (every
 /// value and the scheme), what the run is compared with, repetitions of its timing, and the identity of the
-/// build that computes (build_identity()). Names of study and run take no part. Runs of somebody else's
-/// solver are not kept: what decides them is not known. Every file carries its key and a checksum; one that
-/// does not fit is as good as none. Threads and processes may share a directory: files appear whole, by
-/// renaming.
+/// build that computes (build_identity()). Names of study and run take no part. Of somebody else's solver
+/// what it delivered is kept (KeptDeliveries), under what decides it alone, whichever build of ours judges
+/// it. Every file carries its key and a checksum; one that does not fit is as good as none. Threads and
+/// processes may share a directory: files appear whole, by renaming.
 class RunCache {
  public:
   /// Keeps runs below `directory`/runs; an empty directory is CacheUse::Off.
@@ -31,10 +33,14 @@ class RunCache {
   [[nodiscard]] std::optional<RunData> load(const Study& study, const PlannedRun& plan) const;
   /// Bytes kept for what this text decides, likewise.
   [[nodiscard]] std::optional<std::string> load(const std::string& content) const;
+  /// What foreign runs delivered.
+  [[nodiscard]] KeptDeliveries deliveries();
   /// Keeps a run that completed or diverged. A disk that is full or cannot be written is noted, no failure.
   void save(const Study& study, const RunData& data);
   void save(const std::string& content, const std::string& bytes);
 
+  /// Whether what is not there may be run.
+  [[nodiscard]] bool may_run() const { return use_ != CacheUse::Only; }
   [[nodiscard]] bool on() const { return use_ != CacheUse::Off; }
   /// One line on what could not be kept and why; "" if all is well.
   [[nodiscard]] std::string warning() const;
@@ -50,9 +56,12 @@ class RunCache {
 
  private:
   [[nodiscard]] std::filesystem::path file_of(const std::string& key) const;
+  [[nodiscard]] std::optional<std::string> load_from(const std::filesystem::path& file,
+                                                     const std::string& key) const;
+  void save_to(const std::filesystem::path& file, const std::string& key, const std::string& bytes);
 
   CacheUse use_;
-  std::filesystem::path runs_, own_;  // <cache>/runs and <cache>/runs/<build>
+  std::filesystem::path runs_, own_, foreign_;  // <cache>/runs, and in it <build> and "foreign"
   std::atomic<long> saved_{0}, lost_{0};
   std::atomic<int> cause_{0};  // errno of the first that was lost
 };

@@ -5,6 +5,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <stdexcept>
 
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
@@ -20,6 +21,7 @@
 #include "verification/suite/collect.hpp"
 #include "verification/suite/run_entry.hpp"
 #include "verification/suite/schedule.hpp"
+#include "verification/suite/slots.hpp"
 
 namespace verification {
 namespace {
@@ -66,6 +68,7 @@ class SuiteRunner {
     reports::ensure_directory(out_ / "scenes");
     reports::remove_tables(out_);
     const Schedule jobs = schedule(studies_);
+    slots_.set(threads);
     const auto perform_job = [this](const Job& job) {
       switch (job.kind) {
         case Job::Kind::Reference:
@@ -113,10 +116,11 @@ class SuiteRunner {
     throw_if_interrupted();
     const Study& study = studies_[job.study];
     const PlannedRun& plan = study.runs[job.run];
-    reports::keep_file(out_ / "scenes" / (plan.run + ".toml"), plan.scene.toml);
+    const Slots::Hold hold(slots_, plan.solver ? plan.solver->cores : 1);
+    reports::keep_file(out_ / "scenes" / (plan.run + ".toml"), plan.scene_text());
     std::optional<RunData> kept = cache_.load(study, plan);
-    const bool from_cache = kept.has_value();
     RunData data = kept ? std::move(*kept) : simulate(study, plan);
+    const bool from_cache = data.timing.source == reports::timing_from_cache;
     data.errors = measure_errors(data);
     profiles_.write(data);
 
@@ -180,7 +184,10 @@ class SuiteRunner {
 
   RunData simulate(const Study& study, const PlannedRun& plan) {
     try {
-      RunData data = study.solver ? run_foreign(study, plan, out_) : run_simulation(study, plan);
+      if (!plan.solver && !cache_.may_run())
+        throw std::runtime_error("is not among the finished runs, and nothing may be run here");
+      RunData data =
+          plan.solver ? run_foreign(study, plan, out_, cache_.deliveries()) : run_simulation(study, plan);
       cache_.save(study, data);
       return data;
     } catch (const reports::IoError&) {
@@ -227,6 +234,7 @@ class SuiteRunner {
   RunCache& cache_;
   const SuiteListener& listener_;
   KeptProfiles profiles_;
+  Slots slots_;
   std::vector<StudyData> data_;
   std::vector<std::vector<std::vector<reports::StabilityRecord>>> limits_;  // by study and case
   std::vector<std::size_t> remaining_;

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "reports/files/csv.hpp"
 #include "reports/pages/html/page.hpp"
 #include "reports/records/chapters.hpp"
 #include "reports/summaries/scoreboard.hpp"
@@ -39,6 +40,11 @@ std::string rate_table(const RateTable& table) {
 
 std::string optional_number(double value) {
   return std::isnan(value) ? "-" : number(value, 3);
+}
+
+/// A dash for a count that a foreign solver did not give.
+std::string optional_count(long value) {
+  return value == unknown_count ? "-" : std::to_string(value);
 }
 
 std::string order_table(const std::vector<const OrderRecord*>& orders) {
@@ -154,7 +160,8 @@ std::string html_runs(const Results& results, const std::string& study) {
         "class=\"{}\">{}</td></tr>\n",
         html_text(name), html_text(run.scene), html_text(run.fluid),
         html_text(run.method + (run.basis == foreign_scheme ? "" : ": " + scheme_of(run))), run.cells,
-        run.particles, number(run.dt), run.steps, optional_number(wall), optional_number(speed),
+        optional_count(run.particles), optional_number(run.dt), optional_count(run.steps),
+        optional_number(wall), optional_number(speed),
         completed(run)                      ? "pass"
         : expected_to_diverge(results, run) ? "faint"
                                             : "fail",

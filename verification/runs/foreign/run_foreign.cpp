@@ -3,19 +3,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
-#include <fstream>
+#include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
+#include <string_view>
 
+#include "reports/files/atomic_file.hpp"
 #include "reports/files/csv.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/process/child.hpp"
 #include "solver/kernel/isa.hpp"
-#include "verification/runs/foreign/delivery.hpp"
+#include "verification/runs/foreign/delivered_files.hpp"
+#include "verification/runs/foreign/what_decides.hpp"
 #include "verification/runs/interruption.hpp"
-#include "verification/runs/run_simulation.hpp"
 
 namespace verification {
 namespace {
@@ -38,6 +40,7 @@ reports::ChildCommand command_of(const ForeignSolver& solver, const PlannedRun& 
       {"{run}", plan.run},
       {"{cells}", std::to_string(plan.scene.discretisation.cells)},
       {"{dt}", fmt::format("{}", plan.scene.segments.front().dt)},
+      {"{cores}", std::to_string(solver.cores)},
       {"{threads}", std::to_string(mpm::default_threads())},
       {"{mpm-verify}", fs::read_symlink("/proc/self/exe", ignored).string()},
   };
@@ -62,59 +65,6 @@ fs::path fresh_folder(const fs::path& out, const std::string& run) {
   fs::remove_all(folder, error);
   reports::ensure_directory(folder);
   return folder;
-}
-
-/// A foreign file without its comments, and with a column of zeros for a v that it leaves out.
-fs::path normalised(const fs::path& file, bool may_lack_v) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error("it left no " + file.filename().string());
-  std::string text, line;
-  bool header = true, add_v = false;
-  while (std::getline(in, line)) {
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-    if (line.empty() || line.front() == '#') continue;
-    if (header) {
-      const std::string columns = "," + line + ",";
-      add_v = may_lack_v && columns.find(",v,") == std::string::npos;
-    }
-    text += line + (add_v ? (header ? ",v" : ",0") : "") + "\n";
-    header = false;
-  }
-  const fs::path read = file.string() + ".read";
-  reports::write_file(read, text);
-  return read;
-}
-
-std::vector<reports::ProfileRow> read_profile(const fs::path& file, bool may_lack_v) {
-  using Row = reports::ProfileRow;
-  const auto columns =
-      std::make_tuple(reports::column("t", &Row::t), reports::column("location", &Row::location),
-                      reports::column("x", &Row::x), reports::column("y", &Row::y),
-                      reports::column("u", &Row::u), reports::column("v", &Row::v));
-  return reports::read_csv(normalised(file, may_lack_v), columns);
-}
-
-std::vector<reports::HistoryRow> read_history(const fs::path& file) {
-  using Row = reports::HistoryRow;
-  const auto columns = std::make_tuple(
-      reports::column("t", &Row::t), reports::column("probe", &Row::probe),
-      reports::column("mass", &Row::mass), reports::column("momentum_x", &Row::momentum_x),
-      reports::column("momentum_y", &Row::momentum_y), reports::column("impulse_x", &Row::impulse_x),
-      reports::column("impulse_y", &Row::impulse_y), reports::column("kinetic_energy", &Row::kinetic_energy));
-  return reports::read_csv(normalised(file, false), columns);
-}
-
-void add_history(const ForeignSolver& solver, const fs::path& folder, const SceneConfig& scene,
-                 const ExactField* exact, RunData& data) {
-  if (!solver.delivers_record(Record::History)) return;
-  data.history = read_history(folder / "history.csv");
-  const Probe probe = scene.flow->probe();
-  for (reports::HistoryRow& row : data.history) {
-    row.probe_exact = exact ? exact->velocity(probe.point, row.t, Location::Grid).dot(probe.direction) : nan;
-    row.kinetic_energy_exact = exact ? exact->kinetic_energy(row.t).value_or(nan) : nan;
-  }
-  if (data.history.size() < 2 || !(data.history.back().t >= scene.outputs.back() * (1 - 1e-6)))
-    throw std::runtime_error(fmt::format("history.csv ends before t = {} s", scene.outputs.back()));
 }
 
 /// Streamwise velocity at the probe of a channel at each output, between the two rows of the grid (or,
@@ -147,82 +97,106 @@ std::vector<double> probe_from_profile(const std::vector<reports::ProfileRow>& r
   return values;
 }
 
-/// What the solver says of itself in run.json, where it leaves one. Throws where that is a failure.
-void read_run_json(const fs::path& file, RunData& data) {
-  std::ifstream in(file);
-  if (!in) return;
-  try {
-    const nlohmann::json json = nlohmann::json::parse(in);
-    const std::string status = json.value("status", "completed"), message = json.value("message", "");
-    if (status != "completed")
-      throw std::runtime_error("its run.json says '" + status + "'" +
-                               (message.empty() ? "" : ": " + message));
-    if (const std::string version = json.value("version", ""); !version.empty())
-      data.record.method += " " + version;
-    data.record.steps = json.value("steps", data.record.steps);
-    data.record.particles = json.value("particles", data.record.particles);
-    data.record.cells = json.value("cells", data.record.cells);
-    data.record.dt = json.value("dt", data.record.dt);
-    data.timing.wall_s = json.value("wall_s", data.timing.wall_s);
-  } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(std::string("its run.json cannot be read: ") + error.what());
+constexpr const char* packed_files[] = {"profile.csv", "history.csv", "shear.csv",
+                                        "state.csv",   "run.json",    "log.txt"};
+
+/// What a solver left, and how long it took, as bytes: what is kept is judged as if it had just been made.
+std::string packed(const fs::path& folder, double seconds) {
+  std::string bytes = fmt::format("{}\n", seconds);
+  for (const char* name : packed_files) {
+    if (!fs::is_regular_file(folder / name)) continue;
+    const std::string content = reports::read_file(folder / name);
+    bytes += fmt::format("{} {}\n", name, content.size()) + content;
   }
+  return bytes;
+}
+
+/// The same the other way; the seconds. None for bytes that are not whole.
+std::optional<double> unpacked(const std::string& bytes, const fs::path& folder) {
+  std::istringstream in(bytes);
+  double seconds = 0;
+  if (!(in >> seconds) || in.get() != '\n') return std::nullopt;
+  std::string name;
+  std::size_t size = 0;
+  while (in >> name >> size) {
+    const auto at = static_cast<std::size_t>(in.tellg()) + 1;
+    if (std::ranges::count(packed_files, name) == 0 || at + size > bytes.size()) return std::nullopt;
+    reports::write_file(folder / name, std::string_view(bytes).substr(at, size),
+                        reports::Durability::Unsynced);
+    in.seekg(static_cast<std::streamoff>(at + size));
+  }
+  return seconds;
+}
+
+/// Where the results are, and what is known of how they were made.
+struct Source {
+  fs::path folder;
+  double seconds = nan;
+  bool kept = false;
+  std::string key;  ///< under which they are to be kept once they are found whole; "" for none
+};
+
+Source make_results(const PlannedRun& plan, const fs::path& out, const fs::path& folder,
+                    const std::string& version, const KeptDeliveries& kept) {
+  const ForeignSolver& solver = *plan.solver;
+  if (solver.is_there()) {
+    const fs::path there = replaced(solver.results, "{run}", plan.run);
+    if (!fs::is_directory(there))
+      throw std::runtime_error(solver.name + ": no results in " + there.string() +
+                               ": put profile.csv there, and judge again");
+    return {there, nan, false, ""};
+  }
+  const std::string key = kept.load || kept.save ? what_decides(plan, version) : "";
+  if (!key.empty() && kept.load)
+    if (const auto bytes = kept.load(key))
+      if (const auto seconds = unpacked(*bytes, folder)) return {folder, *seconds, true, ""};
+  if (!kept.may_run) throw std::runtime_error("is not among the finished runs, and nothing may be run here");
+  const reports::ChildCommand command = command_of(solver, plan, out, folder);
+  const reports::ChildEnd end = reports::run_child(command);
+  throw_if_interrupted();
+  if (!end.well()) throw std::runtime_error(end.text());
+  return {folder, end.seconds, false, key};
 }
 
 }  // namespace
 
-RunData run_foreign(const Study& study, const PlannedRun& plan, const fs::path& out) {
+RunData run_foreign(const Study& study, const PlannedRun& plan, const fs::path& out,
+                    const KeptDeliveries& kept) {
   const SceneConfig& scene = plan.scene;
-  const ForeignSolver& solver = *study.solver;
+  const ForeignSolver& solver = *plan.solver;
   const fs::path folder = fresh_folder(out, plan.run);
-  const reports::ChildCommand command = command_of(solver, plan, out, folder);
-  const reports::ChildEnd end = reports::run_child(command);
-  throw_if_interrupted();
-  const auto fail = [&](const std::string& what) {
-    const std::string tail = reports::last_lines(command.log, 5);
-    throw std::runtime_error(solver.name + ": " + what + (tail.empty() ? "" : "; its log ends: " + tail));
-  };
-  if (!end.well()) fail(end.text());
-
   RunData data;
   data.plan = &plan;
   data.foreign = true;
-  const auto exact = compared_with(study, scene);
-  const bool channel_along_x = scene.flow->has_shear_profile() && scene.flow->across() == 1;
-  try {
-    data.profile = read_profile(folder / "profile.csv", channel_along_x);
-    add_history(solver, folder, scene, exact.get(), data);
-  } catch (const reports::IoError& error) {
-    fail(error.what());  // the fault of the foreign solver, not of our result directory
-  } catch (const std::runtime_error& error) {
-    fail(error.what());
-  }
-  const std::vector<std::string> lacks = shortcomings(data.profile, plan, solver);
-  if (!lacks.empty()) fail(fmt::format("its profile.csv is not whole: {}", fmt::join(lacks, "; ")));
-  for (reports::ProfileRow& row : data.profile) {
-    row.t = output_time(scene, row.t);
-    const Location location = row.location == "grid" ? Location::Grid : Location::Particles;
-    const Vec2 v = exact ? exact->velocity({row.x, row.y}, row.t, location) : Vec2(nan, nan);
-    row.u_exact = v.x();
-    row.v_exact = v.y();
-  }
-  if (exact && study.comparison == Comparison::Exact) {
-    const auto rows = exact_lines(scene, *exact);
-    data.profile.insert(data.profile.end(), rows.begin(), rows.end());
-  }
-  data.probe = probe_from_profile(data.profile, scene);
-  data.record = describe_run(study, plan, scene.steps(), "completed");
+  data.record = describe_run(study, plan, reports::unknown_count, "completed");
   data.record.basis = data.record.transfer = data.record.stepping = data.record.reset =
       reports::foreign_scheme;
   data.record.method = solver.name;
+  data.record.particles = reports::unknown_count;
+  if (!scene.dt_given) data.record.dt = nan;
   data.timing.run = plan.run;
-  data.timing.wall_s = end.seconds;
-  data.timing.particle_steps_per_s = nan;
   try {
-    read_run_json(folder / "run.json", data);
+    const std::string version = version_of(solver, out / "external");
+    if (!version.empty()) data.record.method += " " + version;
+    const Source source = make_results(plan, out, folder, version, kept);
+    data.timing.wall_s = source.seconds;
+    if (source.kept) data.timing.source = reports::timing_from_cache;
+    read_delivery(study, plan, source.folder, folder, data);
+    read_run_json(source.folder / "run.json", solver, data);
+    if (!source.key.empty() && kept.save) kept.save(source.key, packed(folder, source.seconds));
+  } catch (const reports::IoError&) {
+    throw;
   } catch (const std::runtime_error& error) {
-    fail(error.what());
+    const std::string tail = reports::last_lines(folder / "log.txt", 5), what = error.what();
+    throw std::runtime_error((what.starts_with(solver.name + ": ") ? "" : solver.name + ": ") + what +
+                             (tail.empty() ? "" : "; its log ends: " + tail));
   }
+  data.probe = probe_from_profile(data.profile, scene);
+  const bool counted =
+      data.record.particles != reports::unknown_count && data.record.steps != reports::unknown_count;
+  data.timing.particle_steps_per_s = counted ? static_cast<double>(data.record.particles) *
+                                                   static_cast<double>(data.record.steps) / data.timing.wall_s
+                                             : nan;
   return data;
 }
 

@@ -1,0 +1,61 @@
+#include "verification/scene/handed_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "verification/config/toml_table.hpp"
+
+namespace verification {
+
+std::string start_in_words(const std::string& flow) {
+  static const std::map<std::string, std::string> words = {
+      {"poiseuille", "at rest; the acceleration body_acceleration acts along the plates from t = 0"},
+      {"couette", "at rest; the upper plate moves with plate_velocity from t = 0"},
+      {"couette-poiseuille", "at rest; plate_velocity and body_acceleration act from t = 0"},
+      {"cessation", "the steady flow under initial_acceleration, which stops at t = 0"},
+      {"oscillating-plate",
+       "the periodic state Re[V0 sinh(l y)/sinh(l H)], l = sqrt(i w/nu), w = 2 pi frequency; the upper plate "
+       "moves with plate_velocity cos(w t)"},
+      {"womersley",
+       "the periodic state Re[F/(i w) (1 - cosh(l (y - H/2))/cosh(l H/2))], l = sqrt(i w/nu), w = 2 pi "
+       "frequency; the acceleration is body_acceleration cos(w t)"},
+      {"acoustic-wave", "amplitude sin(k s) along the axis, k = 2 pi/wavelength; uniform density"},
+      {"shear-wave",
+       "varying along y: u = stream[0] + amplitude sin(k y), v = stream[1]; along x: v = stream[1] - "
+       "amplitude sin(k x), u = stream[0]; k = 2 pi/wavelength"},
+      {"oblique-shear-wave", "stream + amplitude (k_y, -k_x)/|k| sin(k_x x + k_y y), k = 2 pi waves/length"},
+      {"translation", "velocity everywhere, density density_ratio times density"},
+      {"tait-column", "at rest in the density that balances gravity"},
+      {"uniform-dilatation", "rate s along the axis; uniform density"},
+      {"taylor-green",
+       "u = amplitude sin(k x) cos(k y), v = -amplitude cos(k x) sin(k y), k = 2 pi/period; pressure density "
+       "amplitude^2/4 (cos 2kx + cos 2ky)"},
+      {"lid-driven-cavity", "at rest; the lid at the top moves with lid_velocity along x from t = 0"},
+      {"manufactured",
+       "u = V0 y/H + a sin(2 pi y/H) sin(k x), v = -a k H/pi sin(pi y/H)^2 cos(k x), k = 2 pi/L, under the "
+       "acceleration that makes th = k x - w t in place of k x a solution at all times"},
+      {"box", "initial_velocity everywhere"},
+  };
+  const auto found = words.find(flow);
+  return found == words.end() ? "" : found->second;
+}
+
+std::string handed_scene(const SceneConfig& scene, const std::string& options) {
+  TomlTable text = TomlTable::from_text(scene.resolved, "scene");
+  text.set("protocol.version", protocol_version);
+  text.set("coordinates.origin", std::string("lower left corner of the domain; x to the right, y upwards"));
+  text.set("coordinates.width", scene.scene.size.x());
+  text.set("coordinates.height", scene.scene.size.y());
+  text.set("coordinates.across", std::string(scene.flow->across() == 0 ? "x" : "y"));
+  if (scene.scene.periodic(0)) text.set("coordinates.period_x", scene.scene.size.x());
+  if (scene.scene.periodic(1)) text.set("coordinates.period_y", scene.scene.size.y());
+  std::string start = start_in_words(scene.flow_name);
+  if (scene.start > 0)
+    start =
+        fmt::format("the exact solution at t = {} s of the flow that is, at t = 0: {}", scene.start, start);
+  text.set("coordinates.start", start);
+  return text.print() + (options.empty() ? "" : "\n" + options);
+}
+
+}  // namespace verification
