@@ -54,8 +54,15 @@ void KeptProfiles::write(const RunData& run, bool all) const {
   };
   keep(File::Profile, ".csv", true, [&] { reports::write_profile(out_, name, run.profile); });
   keep(File::History, ".history.csv", true, [&] { reports::write_history(out_, name, run.history); });
-  keep(File::Shear, ".shear.csv", !run.shear.empty(), [&] { reports::write_shear(out_, name, run.shear); });
-  keep(File::State, ".state.csv", !run.state.empty(), [&] { reports::write_state(out_, name, run.state); });
+  // Of a run that failed there is nothing, and its figure says so.
+  const auto awaited = [&](File file) {
+    const auto drawn = drawn_.find(name);
+    return run.record.status.starts_with("failed: ") && drawn != drawn_.end() && drawn->second.contains(file);
+  };
+  keep(File::Shear, ".shear.csv", !run.shear.empty() || awaited(File::Shear),
+       [&] { reports::write_shear(out_, name, run.shear); });
+  keep(File::State, ".state.csv", !run.state.empty() || awaited(File::State),
+       [&] { reports::write_state(out_, name, run.state); });
 }
 
 }  // namespace verification

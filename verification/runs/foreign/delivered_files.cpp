@@ -91,7 +91,11 @@ void add_history(const fs::path& folder, const fs::path& scratch, const SceneCon
     row.probe_exact = exact ? exact->velocity(probe.point, row.t, Location::Grid).dot(probe.direction) : nan;
     row.kinetic_energy_exact = exact ? exact->kinetic_energy(row.t).value_or(nan) : nan;
   }
-  if (data.history.size() < 2 || !(data.history.back().t >= scene.outputs.back() * (1 - 1e-6)))
+  constexpr std::size_t fewest = 10;
+  if (data.history.size() < fewest)
+    throw std::runtime_error(
+        fmt::format("history.csv has {} rows; expected at least {}", data.history.size(), fewest));
+  if (!(data.history.back().t >= scene.outputs.back() * (1 - 1e-6)))
     throw std::runtime_error(fmt::format("history.csv ends before t = {} s", scene.outputs.back()));
 }
 
