@@ -330,9 +330,7 @@ void TomlTable::note_defaults() {
 }
 
 TomlTable TomlTable::with_defaults() const {
-  auto data = std::make_shared<Data>();
-  data->origin = data_->origin;
-  data->path = data_->path;
+  auto data = std::make_shared<Data>(Data{{}, data_->origin, data_->path, {}, nullptr});
   if (data_->defaults) data->table = *data_->defaults;
   overlay(data->table, data_->table);
   return TomlTable(data);

@@ -43,7 +43,9 @@ std::vector<std::string> further_studies() {
           "[solver]\ncommand = [\"true\"]\nenvironment = {A = \"b\"}\ndelivers = [\"profile\"]\n"
           "locations = [\"grid\"]\npoints_across = 4\npoints_reason = \"any\"\n" +
           any_check,
-      channel + "[solver]\ncommand = \"true\"\n" + any_check,
+      channel + "[solver]\ncommand = \"true\"\nversion = \"true\"\noptions = {a = 1}\ninputs = [\".\"]\n" +
+          any_check,
+      channel + "[solver]\nresults = \"theirs/{run}\"\n" + any_check,
       "expected_checks = 1\n" + channel + any_check,
       channel +
           "[validation]\nvelocity = 1\nlength = 1\nvariants = [\"\"]\n[[validation.input]]\n"
