@@ -11,6 +11,7 @@
 #include "solver/kernel/isa.hpp"
 #include "solver/scene/scene.hpp"
 #include "verification/commands/commands.hpp"
+#include "verification/commands/elsewhere/shard_app.hpp"
 #include "verification/commands/output.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/reading/study_folder.hpp"
@@ -48,6 +49,8 @@ int dispatch(int argc, char** argv) {
   explain_app->add_option("STUDY", explain.study, "Name of a study or path of a study file")->required();
   explain_app->add_option("--studies", studies, studies_help);
 
+  ShardApp elsewhere(app, studies, studies_help);
+
   SchemaOptions schema;
   auto* schema_app =
       app.add_subcommand("schema", "JSON Schema of study files, by which editors complete and check them");
@@ -76,6 +79,8 @@ int dispatch(int argc, char** argv) {
                     "a directory in "
                     "which none was begun");
 
+  run_app->add_option("--shard", run.shard,
+                      "K/N: only part K of N of the runs, kept in --out for `collect`; judges nothing");
   run_app->add_flag("--pdf", run.pdf, "Print report.pdf too, by a browser (chromium, or $MPM_BROWSER)");
   run_app->add_flag(
       "--keep-profiles", run.keep_profiles,
@@ -169,11 +174,12 @@ int dispatch(int argc, char** argv) {
   }
   mpm::use_threads(threads);
   mpm::use_isa(isa.empty() ? mpm::current_isa() : isa);  // a mistake in the environment shows now
-  if (*list_app || *run_app || *explain_app) {
+  if (*list_app || *run_app || *explain_app || elsewhere.needs_studies()) {
     if (studies.empty()) studies = studies_directory(build_info::studies).string();
     list.studies = run.studies = explain.studies = studies;
   }
   run.command_line = scene.command_line = validate.command_line = joined(argc, argv);
+  if (const auto code = elsewhere.run(studies, run.command_line)) return *code;
   if (*list_app) return list_command(list);
   if (*explain_app) return explain_command(explain);
   if (*schema_app) return schema_command(schema);

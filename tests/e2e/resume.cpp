@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <csignal>
-#include <map>
-#include <thread>
 
 #include "tests/catch.hpp"
 #include "tests/e2e/program.hpp"
+#include "tests/e2e/stopped.hpp"
 #include "tests/study_text.hpp"
 
 namespace {
@@ -35,40 +34,6 @@ reason = "O(h^2) on 16 cells, times 3"
 kind = "history"
 title = "Slow"
 )");
-
-/// All CSV files by name, but timing.csv and changes.csv, which says what lay there before.
-std::map<std::string, std::string> tables(const std::filesystem::path& root) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
-    if (entry.path().extension() == ".csv" && entry.path().filename() != "timing.csv" &&
-        entry.path().filename() != "changes.csv")
-      files[std::filesystem::relative(entry.path(), root).string()] = content_of(entry.path());
-  return files;
-}
-
-/// Starts the program, waits until it has kept `runs` runs in the cache, and sends it a signal. Returns how
-/// it ended, as a shell would say it.
-int stop_after(int runs, int signal, const std::string& arguments, const std::filesystem::path& cache) {
-  const pid_t child = fork();
-  if (child == 0) {
-    setenv("MPM_CACHE", cache.c_str(), 1);
-    const std::string command =
-        std::string("exec ") + MPM_VERIFY_PROGRAM + " " + arguments + " >/dev/null 2>&1";
-    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-    _exit(127);
-  }
-  int status = 0;
-  for (int kept = 0; kept < runs && waitpid(child, &status, WNOHANG) == 0;) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    std::error_code error;
-    kept = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(cache / "runs", error))
-      kept += entry.path().extension() == ".run";
-  }
-  kill(child, signal);
-  waitpid(child, &status, 0);
-  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-}
 
 }  // namespace
 

@@ -42,9 +42,12 @@ struct RunOptions {
   bool resume = false;         ///< `out` must hold a suite that was begun
   bool pdf = false;            ///< print the report too
   bool keep_profiles = false;  ///< of every run, drawn or not
+  std::string shard;           ///< "K/N": that part of the suite alone, kept in `out` for `collect`
   std::string command_line;
 };
 int run_command(const RunOptions& options);
+/// run_command() with a shard: its runs are kept below `out`, and nothing is judged.
+int shard_command(const RunOptions& options);
 
 struct SceneOptions {
   std::filesystem::path scene, out;

@@ -34,6 +34,17 @@ std::string compute() {
 
 }  // namespace
 
+const std::string& program_identity() {
+  static const std::string identity = [] {
+    try {
+      return reports::content_name(reports::read_file("/proc/self/exe"));
+    } catch (const reports::IoError&) {
+      return std::string();
+    }
+  }();
+  return identity;
+}
+
 const std::string& build_identity() {
   static const std::string identity = compute();
   return identity;

@@ -9,4 +9,7 @@ namespace verification {
 /// result change it. "" where the executable cannot be read: then nothing may be remembered.
 const std::string& build_identity();
 
+/// The same of the executable file alone: what machines that share a suite must share. "" likewise.
+const std::string& program_identity();
+
 }  // namespace verification

@@ -20,13 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Folder of what foreign runs delivered, beside those of builds.
+constexpr const char* foreign = "foreign";
 // To be raised with any change of the bytes in a file; what is computed is part of the build's identity.
 constexpr const char* format = "mpm-verify run, format 1\n";
-
-/// The text that decides something, with what decides everything: the build and its instruction set.
-std::string key_of(const std::string& content) {
-  return fmt::format("{}build {}\nkernels {}\n{}\n", format, build_identity(), mpm::current_isa(), content);
-}
 
 /// All that decides the result of a run, as text.
 std::string content_of(const Study& study, const PlannedRun& plan) {
@@ -65,32 +62,58 @@ std::vector<Entry> files_in(const fs::path& directory) {
 }  // namespace
 
 RunCache::RunCache(const fs::path& directory, CacheUse use) : use_(use) {
-  if (use_ == CacheUse::Off) return;
-  if (directory.empty() || build_identity().empty()) {
-    use_ = CacheUse::Off;
-    return;
-  }
-  runs_ = directory / "runs";
-  own_ = runs_ / build_identity();
-  foreign_ = runs_ / "foreign";
-  if (use_ == CacheUse::Only) return;
-  std::error_code ignored;
-  for (const fs::path& folder : {own_, foreign_}) fs::create_directories(folder, ignored);
-  fs::last_write_time(foreign_, fs::file_time_type::clock::now(), ignored);
-  fs::last_write_time(own_, fs::file_time_type::clock::now(), ignored);  // in use: prune() goes by this
+  if (directory.empty()) use_ = CacheUse::Off;
+  origins_.push_back({directory, build_identity(), mpm::current_isa()});
+  open();
 }
 
-fs::path RunCache::file_of(const std::string& key) const {
-  return on() ? own_ / (reports::content_name(key) + ".run") : fs::path();
+RunCache::RunCache(const CacheOrigin& origin) : use_(CacheUse::Reuse), origins_{origin} {
+  open();
+}
+
+RunCache::RunCache(std::vector<CacheOrigin> origins) : use_(CacheUse::Only), origins_(std::move(origins)) {}
+
+void RunCache::open() {
+  const CacheOrigin& origin = origins_.front();
+  if (origin.identity.empty()) use_ = CacheUse::Off;
+  if (use_ == CacheUse::Off) return;
+  runs_ = origin.directory / "runs";
+  own_ = runs_ / origin.identity;
+  std::error_code ignored;
+  for (const fs::path& folder : {own_, runs_ / foreign}) {
+    fs::create_directories(folder, ignored);
+    fs::last_write_time(folder, fs::file_time_type::clock::now(), ignored);  // in use: prune() goes by this
+  }
+}
+
+/// The text that decides something, with what decides everything: the build and its instruction set.
+std::string RunCache::key_of(const std::string& content, const CacheOrigin& origin) const {
+  return fmt::format("{}build {}\nkernels {}\n{}\n", format, origin.identity, origin.kernels, content);
+}
+
+fs::path RunCache::file_of(const std::string& key, const CacheOrigin& origin) const {
+  return origin.directory / "runs" / origin.identity / (reports::content_name(key) + ".run");
 }
 
 fs::path RunCache::file(const Study& study, const PlannedRun& plan) const {
-  return !plan.solver ? file_of(key_of(content_of(study, plan))) : fs::path();
+  if (plan.solver || !on()) return {};
+  return file_of(key_of(content_of(study, plan), origins_.front()), origins_.front());
 }
 
 std::optional<std::string> RunCache::load(const std::string& content) const {
-  const std::string key = key_of(content);
-  return load_from(file_of(key), key);
+  for (const CacheOrigin& origin : origins_) {
+    const std::string key = key_of(content, origin);
+    if (auto bytes = load_from(file_of(key, origin), key)) return bytes;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> RunCache::failure(const Study& study, const PlannedRun& plan) const {
+  return load("failure of " + plan.run + "\n" + content_of(study, plan));
+}
+
+void RunCache::save_failure(const Study& study, const PlannedRun& plan, const std::string& why) {
+  save("failure of " + plan.run + "\n" + content_of(study, plan), why);
 }
 
 std::optional<std::string> RunCache::load_from(const fs::path& file, const std::string& key) const {
@@ -116,16 +139,19 @@ KeptDeliveries RunCache::deliveries() {
   kept.may_run = may_run();
   if (!on()) return kept;
   const auto key_of_text = [](const std::string& text) { return format + ("foreign\n" + text + "\n"); };
-  const auto file = [this](const std::string& key) {
-    return foreign_ / (reports::content_name(key) + ".run");
+  const auto file = [](const CacheOrigin& origin, const std::string& key) {
+    return origin.directory / "runs" / foreign / (reports::content_name(key) + ".run");
   };
   kept.load = [this, key_of_text, file](const std::string& text) {
     const std::string key = key_of_text(text);
-    return load_from(file(key), key);
+    std::optional<std::string> bytes;
+    for (const CacheOrigin& origin : origins_)
+      if (!bytes) bytes = load_from(file(origin, key), key);
+    return bytes;
   };
   kept.save = [this, key_of_text, file](const std::string& text, const std::string& bytes) {
     const std::string key = key_of_text(text);
-    save_to(file(key), key, bytes);
+    save_to(file(origins_.front(), key), key, bytes);
   };
   return kept;
 }
@@ -137,8 +163,8 @@ std::optional<RunData> RunCache::load(const Study& study, const PlannedRun& plan
 }
 
 void RunCache::save(const std::string& content, const std::string& bytes) {
-  const std::string key = key_of(content);
-  save_to(file_of(key), key, bytes);
+  const std::string key = key_of(content, origins_.front());
+  save_to(file_of(key, origins_.front()), key, bytes);
 }
 
 void RunCache::save_to(const fs::path& file, const std::string& key, const std::string& bytes) {

@@ -171,6 +171,8 @@ class SuiteRunner {
   MeasuredLimits limits_of(const Study& study, const StabilityCase& one, const std::string& run) {
     const auto begin = std::chrono::steady_clock::now();
     try {
+      if (!cache_.may_run())
+        throw std::runtime_error("is not among the finished runs, and nothing may be run here");
       MeasuredLimits limits{measure_case(study.name, study.stability, one), 0};
       limits.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       cache_.save(study.stability.content(one), encode_limits(limits));
@@ -184,7 +186,7 @@ class SuiteRunner {
 
   RunData simulate(const Study& study, const PlannedRun& plan) {
     try {
-      if (!plan.solver && !cache_.may_run())
+      if (!cache_.may_run() && !plan.solver)
         throw std::runtime_error("is not among the finished runs, and nothing may be run here");
       RunData data =
           plan.solver ? run_foreign(study, plan, out_, cache_.deliveries()) : run_simulation(study, plan);
@@ -195,9 +197,11 @@ class SuiteRunner {
     } catch (const Interrupted&) {
       throw;
     } catch (const std::exception& error) {
+      std::string why = error.what();
+      if (!cache_.may_run()) why = cache_.failure(study, plan).value_or(why);
       const std::scoped_lock lock(mutex_);
-      outcome_.failures.push_back(plan.run + ": " + error.what());
-      return failed_run(study, plan, error.what());
+      outcome_.failures.push_back(plan.run + ": " + why);
+      return failed_run(study, plan, why);
     }
   }
 
