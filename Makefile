@@ -10,7 +10,7 @@ PDF     := $(if $(shell command -v chromium || command -v chromium-browser || co
 # Seconds that `make fuzz` gives each of its three harnesses.
 FUZZ_SECONDS ?= 60
 
-.PHONY: verify verify-quick verify-deep test bench fuzz faults package program packages configure clean
+.PHONY: verify verify-quick verify-deep verify-slurm test bench fuzz faults package program packages configure clean
 
 verify: program
 	$(PROGRAM) run --suite full --out $(RESULTS) $(PDF)
@@ -20,6 +20,10 @@ verify-quick: program
 
 verify-deep: program
 	$(PROGRAM) run --suite deep --out $(RESULTS)-deep
+
+# The quick suite through a real Slurm, one node in user space, with a task killed midway. Needs root or sudo.
+verify-slurm: program
+	tests/slurm/run-slurm $(PROGRAM) $(RESULTS)-slurm
 
 test: configure
 	cmake --build $(BUILD)

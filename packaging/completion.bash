@@ -1,7 +1,7 @@
 # Completion of mpm-verify for bash: verbs, options of each verb, studies by name.
 _mpm_verify() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} verb=${COMP_WORDS[1]}
-  local verbs="list explain run compare report validate solve reference schema"
+  local verbs="list explain run compare report validate solve reference schema plan judge collect submit"
   COMPREPLY=()
   case $before in
     --suite) mapfile -t COMPREPLY < <(compgen -W "quick full deep" -- "$word"); return ;;
@@ -17,9 +17,9 @@ _mpm_verify() {
     return
   fi
   case $verb in
-    run | explain)
+    run | explain | plan | submit)
       mapfile -t COMPREPLY < <(compgen -W "$("$1" list --names 2> /dev/null)" -- "$word"; compgen -f -X '!*.toml' -- "$word") ;;
-    report | compare) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
+    report | compare | judge | collect) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     solve | reference) mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word") ;;
   esac
 }

@@ -118,7 +118,7 @@ int collect_command(const CollectOptions& options) {
   const fs::path folder = options.studies.empty() ? suite.studies : options.studies;
   const std::vector<Study> studies = chosen_studies(folder, suite.names, suite.suite);
   RunCache cache(origins);
-  const std::vector<std::string> missing = missing_runs(studies, cache, options.out / "external");
+  const std::vector<std::string> missing = missing_runs(studies, cache);
   if (!missing.empty()) {
     std::set<int> there;
     for (const ShardState& shard : shards)

@@ -176,7 +176,7 @@ RunData run_foreign(const Study& study, const PlannedRun& plan, const fs::path& 
   if (!scene.dt_given) data.record.dt = nan;
   data.timing.run = plan.run;
   try {
-    const std::string version = version_of(solver, out / "external");
+    const std::string version = version_of(solver);
     if (!version.empty()) data.record.method += " " + version;
     const Source source = make_results(plan, out, folder, version, kept);
     data.timing.wall_s = source.seconds;

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -58,7 +60,7 @@ fs::path file_named(const std::string& word, const ForeignSolver& solver, bool i
 
 }  // namespace
 
-std::string version_of(const ForeignSolver& solver, const fs::path& out) {
+std::string version_of(const ForeignSolver& solver) {
   if (solver.version_command.empty()) return "";
   static std::mutex mutex;
   static std::map<std::string, std::string> known;
@@ -70,13 +72,18 @@ std::string version_of(const ForeignSolver& solver, const fs::path& out) {
   command.arguments = solver.version_command;
   command.directory = solver.directory;
   command.environment = solver.environment;
-  command.log = out / ("version-" + reports::content_name(key) + ".txt");
+  command.log =
+      fs::temp_directory_path() / fmt::format("mpm-verify-{}-{}.txt", getpid(), reports::content_name(key));
   command.stop = interruption_noted;
   const reports::ChildEnd end = reports::run_child(command);
+  std::ifstream log(command.log);
+  std::stringstream in;
+  in << log.rdbuf();
+  std::error_code ignored;
+  fs::remove(command.log, ignored);
   throw_if_interrupted();
   if (!end.well())
     throw std::runtime_error(fmt::format("{}: the command of solver.version: {}", solver.name, end.text()));
-  std::ifstream in(command.log);
   std::string line;
   while (std::getline(in, line)) {
     const std::size_t begin = line.find_first_not_of(" \t\r");

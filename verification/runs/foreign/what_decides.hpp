@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "verification/study/study.hpp"
@@ -8,9 +7,9 @@
 namespace verification {
 
 /// What its version command prints, asked for once a process: the first line that is not empty. "" for a
-/// solver that has no such command. `out` takes the log. Throws std::runtime_error when the command fails or
+/// solver that has no such command. Throws std::runtime_error when the command fails or
 /// prints nothing.
-std::string version_of(const ForeignSolver& solver, const std::filesystem::path& out);
+std::string version_of(const ForeignSolver& solver);
 
 /// All that decides what a foreign run delivers, as text: the scene handed on with its options, the command
 /// with the content of every file that it names, the environment, the content of the inputs, the version,

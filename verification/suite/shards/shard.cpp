@@ -24,13 +24,13 @@ namespace {
 
 constexpr double seconds_of_a_shard = 60;
 
-bool holds(const Study& study, const Job& job, RunCache& cache, const std::filesystem::path& scratch) {
+bool holds(const Study& study, const Job& job, RunCache& cache) {
   if (job.kind == Job::Kind::Limit)
     return cache.load(study.stability.content(study.stability.cases[job.run])).has_value();
   const PlannedRun& plan = study.runs[job.run];
   if (!plan.solver) return cache.load(study, plan).has_value();
   if (plan.solver->is_there()) return true;
-  const std::string key = what_decides(plan, version_of(*plan.solver, scratch));
+  const std::string key = what_decides(plan, version_of(*plan.solver));
   const KeptDeliveries kept = cache.deliveries();
   return !key.empty() && kept.load && kept.load(key).has_value();
 }
@@ -149,7 +149,7 @@ std::vector<std::string> run_shard(const std::vector<Study>& studies, const std:
     try {
       const Slots::Hold hold(slots,
                              is_run && study.runs[job.run].solver ? study.runs[job.run].solver->cores : 1);
-      if (!holds(study, job, cache, out / "external")) run_job(study, job, cache, out);
+      if (!holds(study, job, cache)) run_job(study, job, cache, out);
     } catch (const reports::IoError&) {
       throw;
     } catch (const Interrupted&) {
@@ -171,12 +171,11 @@ std::vector<std::string> run_shard(const std::vector<Study>& studies, const std:
   return failures;
 }
 
-std::vector<std::string> missing_runs(const std::vector<Study>& studies, RunCache& cache,
-                                      const std::filesystem::path& scratch) {
+std::vector<std::string> missing_runs(const std::vector<Study>& studies, RunCache& cache) {
   std::vector<std::string> missing;
   for (const Job& job : all_jobs(studies)) {
     const Study& study = studies[job.study];
-    if (holds(study, job, cache, scratch)) continue;
+    if (holds(study, job, cache)) continue;
     if (job.kind == Job::Kind::Run && cache.failure(study, study.runs[job.run])) continue;
     missing.push_back(name_of(studies, job));
   }

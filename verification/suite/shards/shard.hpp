@@ -44,7 +44,6 @@ std::vector<std::string> run_shard(const std::vector<Study>& studies, const std:
                                    const std::function<void(const std::string& run)>& ended);
 
 /// Jobs of the studies that the cache knows nothing of, by name.
-std::vector<std::string> missing_runs(const std::vector<Study>& studies, RunCache& cache,
-                                      const std::filesystem::path& scratch);
+std::vector<std::string> missing_runs(const std::vector<Study>& studies, RunCache& cache);
 
 }  // namespace verification
