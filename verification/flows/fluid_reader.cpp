@@ -100,12 +100,20 @@ Reader reader_of(TomlTable& table) {
 
 }  // namespace
 
-FluidConfig read_fluid(TomlTable table, int cells, bool may_be_incompressible) {
+bool is_incompressible(TomlTable& fluid) {
+  if (!fluid.is_text("pressure")) return false;
+  if (fluid.text("pressure") != "incompressible")
+    fluid.fail("pressure", "must be true, false or \"incompressible\"");
+  return true;
+}
+
+FluidConfig read_fluid(TomlTable table, int cells, bool needs_no_modulus) {
   FluidConfig fluid;
   const Reader read_model = reader_of(table);
   fluid.kinematic_viscosity = table.positive("kinematic_viscosity");
   fluid.solver.density = table.positive("density", 1000);
-  fluid.solver.pressure = table.flag("pressure", true);
+  fluid.incompressible = is_incompressible(table);
+  fluid.solver.pressure = !fluid.incompressible && table.flag("pressure", true);
   try {
     const Model model = read_model(table, fluid.kinematic_viscosity, fluid.solver.density, cells);
     fluid.label = model.label;
@@ -114,14 +122,16 @@ FluidConfig read_fluid(TomlTable table, int cells, bool may_be_incompressible) {
   } catch (const std::invalid_argument& error) {
     table.fail("model", error.what());
   }
+  if (fluid.incompressible && table.has("bulk_modulus"))
+    table.fail("bulk_modulus", "has no meaning beside pressure = \"incompressible\": remove it");
   table.accept("bulk_modulus");
   table.refuse_unknown_keys();  // before the next line: a misspelt `pressure` would be told as a missing
                                 // modulus
   if (!fluid.solver.pressure) return fluid;
-  fluid.incompressible = may_be_incompressible && !table.has("bulk_modulus");
-  const double c = incompressible_sound_speed;
+  fluid.without_modulus = needs_no_modulus && !table.has("bulk_modulus");
+  const double c = unreached_sound_speed;
   fluid.solver.bulk_modulus =
-      fluid.incompressible ? fluid.solver.density * c * c / 7 : table.positive("bulk_modulus");
+      fluid.without_modulus ? fluid.solver.density * c * c / 7 : table.positive("bulk_modulus");
   return fluid;
 }
 

@@ -43,7 +43,7 @@ class Pattern {
 
   [[nodiscard]] bool matches(const PlannedRun& run) const {
     const mpm::Scheme& scheme = run.scene.scheme;
-    if (run.scene.sph && variants_.empty()) return false;
+    if ((run.scene.sph || run.scene.incompressible) && variants_.empty()) return false;
     const auto has = [](const std::vector<std::string>& names, const std::string& wanted) {
       return std::ranges::count(names, wanted) > 0;
     };

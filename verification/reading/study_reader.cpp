@@ -267,7 +267,7 @@ void require_comparable(const TomlTable& root, const Study& study) {
     const SceneConfig& scene = planned.scene;
     const mpm::Scheme& scheme = scene.scheme;
     const bool papers_scheme =
-        !scene.sph && scheme.basis == mpm::Scheme::Basis::Linear &&
+        !scene.sph && !scene.incompressible && scheme.basis == mpm::Scheme::Basis::Linear &&
         scheme.transfer == mpm::Scheme::Transfer::Flip &&
         (scheme.stepping == mpm::Scheme::Stepping::Usf || scheme.stepping == mpm::Scheme::Stepping::Musl);
     const mpm::Seeding& seeding = scene.scene.seeding;

@@ -1,5 +1,7 @@
 #include "verification/runs/run_data.hpp"
 
+#include <fmt/format.h>
+
 namespace verification {
 
 reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long steps,
@@ -25,6 +27,14 @@ reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long
     record.basis = mpm::name(sph.kernel);
     record.transfer = mpm::name(sph.wall) + "-" + mpm::name(sph.density);
     record.stepping = "verlet";
+  }
+  if (scene.incompressible) {
+    const mpm::IncompressibleScheme& scheme = *scene.incompressible;
+    record.method = "incompressible MPM";
+    record.basis = fmt::format("divergence-conforming k={}", scheme.degree);
+    record.transfer = "consistent fit";
+    record.stepping = mpm::name(scheme.stepping);
+    record.reset = scheme.remap_every > 0 ? fmt::format("every {} steps", scheme.remap_every) : "never";
   }
   return record;
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "reference/compressible/tait_column.hpp"
+#include "solver/incompressible/make_incompressible_solver.hpp"
 #include "solver/material/pressure.hpp"
 #include "solver/simulation.hpp"
 #include "solver/sph/make_sph_solver.hpp"
@@ -27,7 +28,11 @@ class Recorder {
         exact_(exact),
         data_(data),
         samples_at_(plan.scene.flow->tabulated_points()) {
-    if (samples_at_.empty()) samples_at_ = mpm::sample_points(plan.scene.scene, plan.scene.scheme);
+    mpm::Scheme splines;  // of the incompressible method; the degree is of no matter here
+    splines.basis = mpm::Scheme::Basis::Cubic;
+    if (samples_at_.empty())
+      samples_at_ =
+          mpm::sample_points(plan.scene.scene, plan.scene.incompressible ? splines : plan.scene.scheme);
     data_.start = simulation.particles().position;
     record_history(plan.scene.start);
   }
@@ -172,14 +177,19 @@ std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneC
 
 namespace {
 
+std::unique_ptr<mpm::Simulation> simulation_of(const SceneConfig& scene, const mpm::Scene& started) {
+  if (scene.sph) return mpm::make_sph_solver(started, *scene.sph);
+  if (scene.incompressible) return mpm::make_incompressible_solver(started, *scene.incompressible);
+  return mpm::make_simulation(started, scene.scheme);
+}
+
 /// One simulation of the plan from its start, with its samples.
 RunData simulate(const Study& study, const PlannedRun& plan, const mpm::Scene& started,
                  const ExactField* exact) {
   RunData data;
   data.plan = &plan;
   const auto begin = std::chrono::steady_clock::now();
-  const auto simulation = plan.scene.sph ? mpm::make_sph_solver(started, *plan.scene.sph)
-                                         : mpm::make_simulation(started, plan.scene.scheme);
+  const auto simulation = simulation_of(plan.scene, started);
   Recorder recorder(plan, *simulation, exact, data);
   const mpm::Outcome outcome = mpm::run(
       *simulation, plan.scene.segments,

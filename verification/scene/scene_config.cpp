@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/incompressible/make_incompressible_solver.hpp"
 #include "solver/scene/seeding.hpp"
 #include "solver/sph/stable_sph_step.hpp"
 #include "solver/step/stable_step.hpp"
@@ -57,14 +58,20 @@ mpm::Seeding read_seeding(TomlTable& table, int across) {
 void refuse_keys_of_another_method(TomlTable& table, const std::vector<std::string>& keys,
                                    const std::string& theirs, const std::string& ours) {
   for (const std::string& key : keys)
-    if (table.has(key))
-      table.fail(key, "is a key of method = \"" + theirs + "\", this scheme is " + ours + ": remove it");
+    if (table.has(key)) table.fail(key, "is a key of " + theirs + ", this scheme is " + ours + ": remove it");
 }
+
+const std::vector<std::string> keys_of_mpm = {"basis",       "transfer",     "flip_fraction",
+                                              "reset_every", "reset_strain", "dilatation"};
+const std::vector<std::string> keys_of_sph = {"kernel", "density", "wall", "smoothing", "wall_limit"};
+const std::vector<std::string> keys_of_incompressible = {"degree", "remap_every", "regularisation"};
+const std::string incompressible_method = "the incompressible method (fluid.pressure = \"incompressible\")";
 
 mpm::SphScheme read_sph(TomlTable table) {
   mpm::SphScheme sph;
-  refuse_keys_of_another_method(
-      table, {"basis", "transfer", "stepping", "flip_fraction", "reset_every", "reset_strain"}, "mpm", "sph");
+  refuse_keys_of_another_method(table, keys_of_mpm, "method = \"mpm\"", "sph");
+  refuse_keys_of_another_method(table, {"stepping"}, "method = \"mpm\"", "sph");
+  refuse_keys_of_another_method(table, keys_of_incompressible, incompressible_method, "sph");
   sph.kernel = read_named(table, "kernel", "quintic", mpm::sph_kernel_named);
   sph.density = read_named(table, "density", "continuity", mpm::sph_density_named);
   sph.wall = read_named(table, "wall", "mirror", mpm::sph_wall_named);
@@ -82,8 +89,8 @@ mpm::SphScheme read_sph(TomlTable table) {
 
 mpm::Scheme read_scheme(TomlTable table) {
   mpm::Scheme scheme;
-  refuse_keys_of_another_method(table, {"kernel", "density", "wall", "smoothing", "wall_limit"}, "sph",
-                                "mpm");
+  refuse_keys_of_another_method(table, keys_of_sph, "method = \"sph\"", "mpm");
+  refuse_keys_of_another_method(table, keys_of_incompressible, incompressible_method, "weakly compressible");
   scheme.basis = read_named(table, "basis", "linear", mpm::basis_named);
   scheme.transfer = read_named(table, "transfer", "flip", mpm::transfer_named);
   scheme.stepping = read_named(table, "stepping", "usf", mpm::stepping_named);
@@ -102,6 +109,23 @@ mpm::Scheme read_scheme(TomlTable table) {
     scheme.validate();
   } catch (const mpm::SceneError& error) {
     table.fail("dilatation", error.what());
+  }
+  return scheme;
+}
+
+mpm::IncompressibleScheme read_incompressible(TomlTable table) {
+  mpm::IncompressibleScheme scheme;
+  refuse_keys_of_another_method(table, keys_of_mpm, "the weakly compressible method", "incompressible");
+  refuse_keys_of_another_method(table, keys_of_sph, "method = \"sph\"", "incompressible");
+  scheme.degree = table.integer("degree", scheme.degree);
+  scheme.stepping = read_named(table, "stepping", "midpoint", mpm::incompressible_stepping_named);
+  scheme.remap_every = table.integer("remap_every", scheme.remap_every);
+  scheme.regularisation = table.positive("regularisation", scheme.regularisation);
+  table.refuse_unknown_keys();
+  try {
+    scheme.validate();
+  } catch (const mpm::SceneError& error) {
+    table.fail("degree", error.what());
   }
   return scheme;
 }
@@ -136,6 +160,16 @@ mpm::TimeStepRule read_time_step(TomlTable& table, const SceneConfig& config) {
   if (table.has("cfl_acoustic") && table.has("cfl_viscous")) {
     rule.cfl_acoustic = table.positive("cfl_acoustic");
     rule.cfl_viscous = table.positive("cfl_viscous");
+    return rule;
+  }
+  if (config.incompressible) {
+    for (const char* key : {"cfl_acoustic", "cfl_viscous"})
+      if (table.has(key))
+        table.fail(key,
+                   "has no meaning for an incompressible fluid, whose step neither sound nor viscosity "
+                   "bounds: give dt");
+    // Nothing bounds the step but accuracy: a particle crosses two fifths of a cell.
+    rule.dt = 0.4 * scene.smallest_cell_size() / config.flow->velocity_scale();
     return rule;
   }
   try {
@@ -198,19 +232,27 @@ SceneConfig read_scene_config(TomlTable root, SceneFor whose) {
   const std::string method = scheme.text("method", "mpm");
   if (method != "mpm" && method != "sph")
     scheme.fail("method", "'" + method + "' is not known; choose one of: mpm, sph");
+  TomlTable fluid = root.table("fluid");
+  const bool incompressible = is_incompressible(fluid);
   const bool is_sph = method == "sph";  // without a grid: a cell is a particle, where nothing is said
+  if (is_sph && incompressible)
+    scheme.fail(
+        "method",
+        "\"sph\" is weakly compressible: give fluid.bulk_modulus instead of pressure = \"incompressible\"");
   if (is_sph)
     config.sph = read_sph(scheme);
+  else if (incompressible)
+    config.incompressible = read_incompressible(scheme);
   else
     config.scheme = read_scheme(scheme);
   TomlTable discretisation = root.table("discretisation");
   config.discretisation = read_discretisation(discretisation, is_sph ? 1 : 2);
-  TomlTable fluid = root.table("fluid");
   config.fluid = read_fluid(fluid, config.discretisation.cells, theirs);
   TomlTable scene = root.table("scene");
   config.flow_name = scene.text("flow");
   config.flow = read_flow(scene, config.fluid);
-  if (config.fluid.incompressible && std::ranges::count(compressible_flows, config.flow_name) > 0)
+  if ((config.fluid.without_modulus || incompressible) &&
+      std::ranges::count(compressible_flows, config.flow_name) > 0)
     fluid.fail_missing("bulk_modulus", "the solution of this flow depends on it");
   const mpm::Seeding seeding = read_seeding(discretisation, config.flow->across());
   if (is_sph && std::ranges::count(seeding.rule, mpm::Seeding::Rule::Gauss) > 0)
@@ -236,6 +278,7 @@ SceneConfig read_scene_config(TomlTable root, SceneFor whose) {
     config.scene.validate();
     mpm::check_together(config.scene, config.scheme);
     if (is_sph) mpm::require_sph_fits(*config.sph, config.scene);
+    if (incompressible && !theirs) mpm::require_incompressible_fits(*config.incompressible, config.scene);
   } catch (const mpm::SceneError& error) {
     root.fail("scene", error.what());
   }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/incompressible/incompressible_scheme.hpp"
 #include "solver/scene/scene.hpp"
 #include "solver/sph/sph_scheme.hpp"
 #include "solver/step/time_step.hpp"
@@ -24,6 +25,8 @@ struct SceneConfig {
   Discretisation discretisation;
   mpm::Scheme scheme;                 ///< of the material point method
   std::optional<mpm::SphScheme> sph;  ///< scheme.method = "sph": simulated by SPH instead
+  /// fluid.pressure = "incompressible": simulated by the incompressible material point method instead
+  std::optional<mpm::IncompressibleScheme> incompressible;
   mpm::TimeStepRule time_step;
   double start = 0;  ///< time at which the run starts, from the exact solution if not from rest [s]
   std::vector<double> outputs;               ///< output times, increasing [s]

@@ -15,6 +15,8 @@ namespace {
 // with its fields, a row of a profile as record and as text.
 constexpr double bytes_a_particle = 400, bytes_a_stencil_entry = 28, bytes_a_node = 200, bytes_a_row = 300,
                  bytes_a_matrix_entry = 16;
+// A particle-step of the incompressible method, with its fit and its solve, over one of the vector kernels.
+constexpr double a_fit_over_a_step = 9;
 constexpr double a_year = 3.2e7;  // [s]
 // Backward Euler errs by about dt/(2 t) of a change that takes the time t: a quarter of a per cent.
 constexpr double implicit_steps_to_first_output = 200;
@@ -50,6 +52,13 @@ SceneCost cost_of(const SceneConfig& scene) {
   cost.nodes = (s.cells[0] + degree) * (s.cells[1] + degree);
   for (const mpm::Segment& segment : scene.segments) cost.steps += static_cast<double>(segment.steps);
   cost.seconds = cost.particles * cost.steps / particle_steps_per_second;
+  if (scene.incompressible) {
+    const double k = scene.incompressible->degree;
+    cost.seconds *= a_fit_over_a_step;
+    // The diagonals of two mass matrices, and factors of the solenoidal part with their fill.
+    cost.bytes +=
+        cost.nodes * (2 * (2 * k + 1) * (2 * k - 1) + 8 * (2 * k + 1) * (2 * k + 1)) * bytes_a_matrix_entry;
+  }
   cost.bytes = cost.particles * bytes_a_particle + cost.nodes * bytes_a_node;
   const double pairs = (2 * degree + 1) * (2 * degree + 1), stencil = (degree + 1) * (degree + 1);
   const bool implicit = is_implicit(scene.scheme);

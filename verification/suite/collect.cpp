@@ -20,8 +20,9 @@ std::string left_out(const Study& study) {
   const auto words = [&](auto&& holds, const std::string& what) {
     return all(holds) ? what + "; " : any(holds) ? what + " (some variants); " : std::string();
   };
-  std::string text =
-      words([](const PlannedRun& r) { return !r.scene.fluid.solver.pressure; }, "pressure and density");
+  std::string text = words(
+      [](const PlannedRun& r) { return !r.scene.fluid.solver.pressure && !r.scene.fluid.incompressible; },
+      "pressure and density");
   text += words([](const PlannedRun& r) { return r.scene.discretisation.cells_along == 1; },
                 "variation along the flow (one periodic cell)");
   text +=

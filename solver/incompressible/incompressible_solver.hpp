@@ -1,0 +1,186 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "solver/incompressible/particle_fit.hpp"
+#include "solver/incompressible/stokes.hpp"
+#include "solver/scene/seeding.hpp"
+#include "solver/simulation.hpp"
+
+namespace mpm::incompressible {
+
+/// Incompressible material points on divergence-conforming B-splines (docs/methods-incompressible.md). A
+/// step:
+///   particles drift half a step along the field extrapolated from earlier ones; the grid takes their
+///   velocity there, U* = argmin sum V_p |U(x_p) - v_p|^2; its solenoidal part S is advanced by viscosity,
+///   walls and forces, S -> E; particles take U = E - (G + G_last)/2, G = U* - S, at their place, and drift
+///   the whole step along W = (S + E)/2.
+/// Every W is solenoidal at every point, so particles stay spread; there is no sound. Reflecting the gradient
+/// part, as the constraint on the midpoint asks, alternates from step to step what the mesh cannot resolve;
+/// the mean of two successive ones does not.
+template <int K>
+class IncompressibleSolver final : public Simulation {
+ public:
+  IncompressibleSolver(const Scene& scene, const IncompressibleScheme& scheme, double viscosity, int threads)
+      : scene_(scene),
+        scheme_(scheme),
+        team_(threads),
+        space_(scene, K),
+        mass_(space_),
+        stokes_(scene_, space_, mass_, viscosity / scene.fluid.density),
+        fit_(space_, mass_, scheme.regularisation),
+        particles_(seed_particles(scene)),
+        lattice_(particles_.position),
+        volume_(particles_.size()),
+        middle_(particles_.size()) {
+    for (std::size_t p = 0; p < volume_.size(); ++p) volume_[p] = particles_.mass[p] / scene.fluid.density;
+    std::fill(particles_.density.begin(), particles_.density.end(), scene.fluid.density);
+    // There is no stress at a particle.
+    particles_.stress.assign(particles_.size(), Mat2::Constant(std::numeric_limits<double>::quiet_NaN()));
+    field_ = VectorXd::Zero(space_.size());
+    if (scene_.initial_velocity)
+      field_ = stokes_.solenoidal_part(
+          mass_.solved(space_.load([&](const VectorField& points, VectorField& values) {
+            for (std::size_t i = 0; i < points.size(); ++i) values[i] = scene_.initial_velocity(points[i]);
+          })));
+    drift_ = {field_, field_, scene.start, scene.start};
+  }
+
+  void advance(double t, double dt) override {
+    drift(particles_.position, space_.extended(drift_.at(t + 0.25 * dt)), 0.5 * dt, middle_);
+    const VectorXd fitted = fit_.fitted(volume_, middle_, particles_.velocity, field_, team_);
+    const bool remaps = scheme_.remap_every > 0 && ++steps_ % scheme_.remap_every == 0;
+    if (remaps) middle_ = lattice_;  // and the velocity there is the grid's, which loses nothing
+
+    const VectorXd start = stokes_.solenoidal_part(fitted);
+    const Stokes::Step step = stokes_.advanced(start, t, dt, scheme_.stepping);
+    const VectorXd gradient = fitted - start;
+    if (last_gradient_.size() == 0) last_gradient_ = gradient;
+    field_ = step.end - 0.5 * (gradient + last_gradient_);
+    last_gradient_ = gradient;
+    impulse_ += scene_.fluid.density * step.impulse;
+
+    take(space_.extended(field_));
+    const VectorXd middle_field = 0.5 * (start + step.end);
+    const VelocityField along = space_.extended(middle_field);
+    if (remaps)
+      drift(middle_, along, 0.5 * dt, particles_.position);
+    else
+      drift(particles_.position, along, dt, particles_.position);
+    drift_.add(middle_field, t + 0.5 * dt);
+    now_ = t + dt;
+    judge(dt);
+  }
+
+  [[nodiscard]] std::optional<std::string> breakdown() const override { return breakdown_; }
+  [[nodiscard]] const Particles& particles() const override { return particles_; }
+
+  /// The solenoidal fields of the last two midpoints, extrapolated to the time reached.
+  [[nodiscard]] VectorField grid_field(const VectorField& points, double) const override {
+    const VelocityField field = space_.extended(drift_.at(now_));
+    VectorField values;
+    for (const Vec2& x : points) values.push_back(space_.value(field, x));
+    return values;
+  }
+
+  [[nodiscard]] std::vector<Mat2> grid_gradient(const VectorField& points, double) const override {
+    const VelocityField field = space_.extended(drift_.at(now_));
+    std::vector<Mat2> values;
+    for (const Vec2& x : points) values.push_back(space_.gradient(field, x));
+    return values;
+  }
+
+  [[nodiscard]] Totals totals() const override { return totals_of(particles_, impulse_); }
+
+  /// Fewest and most particles of a cell where the last fit was taken.
+  [[nodiscard]] std::pair<int, int> occupancy() const { return fit_.occupancy(); }
+
+ private:
+  static constexpr std::size_t block = 512;
+
+  /// The fields along which particles drifted at the last two midpoints; between and beyond them, a straight
+  /// line.
+  struct Drift {
+    VectorXd last, before;
+    double t_last, t_before;
+
+    [[nodiscard]] VectorXd at(double t) const {
+      if (!(t_last > t_before)) return last;
+      return last + ((t - t_last) / (t_last - t_before)) * (last - before);
+    }
+    void add(const VectorXd& field, double t) {
+      // What a field at the start, before walls and forces acted, says of the next is nothing.
+      before = is_first ? field : last;
+      t_before = is_first ? t : t_last;
+      is_first = false;
+      last = field;
+      t_last = t;
+    }
+    bool is_first = true;
+  };
+
+  template <class Loop>
+  void for_particles(const Loop& loop) {
+    team_.run(static_cast<int>((particles_.size() + block - 1) / block), [&](int share) {
+      const std::size_t begin = static_cast<std::size_t>(share) * block;
+      const std::size_t end = std::min(begin + block, particles_.size());
+      for (std::size_t p = begin; p < end; ++p) loop(p);
+    });
+  }
+
+  /// Midpoint rule along a field that stands still.
+  void drift(const VectorField& from, const VelocityField& field, double dt, VectorField& to) {
+    for_particles([&](std::size_t p) {
+      const Vec2 half = inside(from[p] + 0.5 * dt * ParticleWeights<K>(space_, from[p]).velocity(field));
+      to[p] = inside(from[p] + dt * ParticleWeights<K>(space_, half).velocity(field));
+    });
+  }
+
+  /// Around periodic directions, and not beyond walls, to which the field is tangential.
+  [[nodiscard]] Vec2 inside(Vec2 x) const {
+    for (const int a : {0, 1}) {
+      const double length = scene_.size[a];
+      if (space_.axis(a).periodic())
+        x[a] -= length * std::floor(x[a] / length);
+      else
+        x[a] = std::clamp(x[a], 0.0, length);
+    }
+    return x;
+  }
+
+  void take(const VelocityField& field) {
+    for_particles([&](std::size_t p) {
+      particles_.velocity[p] = ParticleWeights<K>(space_, middle_[p]).velocity(field);
+    });
+  }
+
+  /// Nothing else bounds the velocities of a run that goes wrong: the fit bears any.
+  void judge(double dt) {
+    if (!field_.allFinite()) breakdown_ = "a velocity is not finite";
+    if (field_.lpNorm<Eigen::Infinity>() * dt > scene_.size.maxCoeff())
+      breakdown_ = "a particle would cross the whole domain in a step";
+    for (const Vec2& x : particles_.position)
+      if (!x.allFinite()) breakdown_ = "a position is not finite";
+  }
+
+  const Scene scene_;
+  const IncompressibleScheme scheme_;
+  ThreadTeam team_;
+  VelocitySpace space_;
+  ExactMass mass_;
+  Stokes stokes_;
+  ParticleFit<K> fit_;
+  Particles particles_;
+  const VectorField lattice_;
+  std::vector<double> volume_;  // [m2]
+  VectorField middle_;          // where the fit is taken
+  VectorXd field_, last_gradient_;
+  Drift drift_;
+  Vec2 impulse_ = Vec2::Zero();
+  double now_ = scene_.start;
+  long steps_ = 0;
+  std::optional<std::string> breakdown_;
+};
+
+}  // namespace mpm::incompressible

@@ -1,0 +1,47 @@
+#include "solver/incompressible/make_incompressible_solver.hpp"
+
+#include <variant>
+
+#include "solver/incompressible/incompressible_solver.hpp"
+#include "solver/kernel/isa.hpp"
+
+namespace mpm {
+namespace {
+
+template <int K>
+std::unique_ptr<Simulation> make(const Scene& scene, const IncompressibleScheme& scheme, int threads) {
+  const double viscosity = std::get<Newtonian>(scene.fluid.rheology).viscosity();
+  return std::make_unique<incompressible::IncompressibleSolver<K>>(scene, scheme, viscosity, threads);
+}
+
+}  // namespace
+
+void require_incompressible_fits(const IncompressibleScheme& scheme, const Scene& scene) {
+  scheme.validate();
+  if (scene.free_surface) throw SceneError("an incompressible fluid fills its box: no fluid_region");
+  if (!std::holds_alternative<Newtonian>(scene.fluid.rheology))
+    throw SceneError("the incompressible method is for Newtonian fluids");
+  for (const int axis : {0, 1}) {
+    if (scene.periodic(axis)) continue;
+    for (const int end : {0, 1})
+      if (scene.sides[static_cast<std::size_t>(2 * axis + end)].velocity(scene.start)[axis] != 0)
+        throw SceneError("a wall of an incompressible fluid moves along itself only");
+  }
+}
+
+std::unique_ptr<Simulation> make_incompressible_solver(const Scene& scene, const IncompressibleScheme& scheme,
+                                                       int threads) {
+  scene.validate();
+  require_incompressible_fits(scheme, scene);
+  if (threads == 0) threads = default_threads();
+  switch (scheme.degree) {
+    case 2:
+      return make<2>(scene, scheme, threads);
+    case 3:
+      return make<3>(scene, scheme, threads);
+    default:
+      return make<4>(scene, scheme, threads);
+  }
+}
+
+}  // namespace mpm

@@ -1,0 +1,220 @@
+#include <cmath>
+#include <numbers>
+
+#include "solver/incompressible/exact_mass.hpp"
+#include "solver/incompressible/make_incompressible_solver.hpp"
+#include "solver/incompressible/particle_fit.hpp"
+#include "solver/incompressible/stokes.hpp"
+#include "solver/scene/seeding.hpp"
+#include "tests/catch.hpp"
+
+using namespace mpm;
+using namespace mpm::incompressible;
+
+namespace {
+
+enum class Box { Walls, ChannelX, ChannelY, Periodic };
+
+Scene box(Box kind, int cells = 6, double nu = 0.01) {
+  Scene scene;
+  scene.size = {1, 1.5};
+  scene.cells = {cells, cells + 1};
+  scene.particles_per_cell = {3, 3};
+  scene.fluid.density = 2;
+  scene.fluid.pressure = false;
+  scene.fluid.rheology = Newtonian{nu * scene.fluid.density};
+  for (const int axis : {0, 1}) {
+    const bool wall =
+        kind == Box::Walls || (kind == Box::ChannelX && axis == 1) || (kind == Box::ChannelY && axis == 0);
+    if (!wall) continue;
+    for (const int end : {0, 1}) scene.sides[static_cast<std::size_t>(2 * axis + end)] = Side::wall({0, 0});
+  }
+  return scene;
+}
+
+/// A vortex that fills a square box with walls, or a periodic one.
+Scene vortex(int cells, bool walls) {
+  Scene scene = box(walls ? Box::Walls : Box::Periodic, cells);
+  scene.size = {1, 1};
+  scene.cells = {cells, cells};
+  scene.initial_velocity = [](const Vec2& x) {
+    const double k = 2 * std::numbers::pi;
+    return Vec2(std::sin(k * x.x()) * std::cos(k * x.y()), -std::cos(k * x.x()) * std::sin(k * x.y()));
+  };
+  return scene;
+}
+
+VectorXd arbitrary(Eigen::Index n) {
+  VectorXd z(n);
+  for (Eigen::Index i = 0; i < n; ++i) z[i] = std::sin(1.0 + 7.3 * static_cast<double>(i * i % 101));
+  return z;
+}
+
+const std::vector<Vec2> scattered = {{0.013, 0.02},  {0.5, 0.75},  {0.37, 1.31},
+                                     {0.999, 1.499}, {0.81, 0.44}, {1, 0}};
+
+}  // namespace
+
+TEST_CASE("splines sum to one, and their derivatives are those of the next lower degree",
+          "[incompressible]") {
+  for (const bool periodic : {false, true})
+    for (const int k : {2, 3, 4}) {
+      const SplineAxis axis(2.0, 7, periodic, k);
+      const SparseMatrix derivative = axis.derivative();
+      for (int cell = 0; cell < 7; ++cell)
+        for (const double xi : {0.0, 0.3, 1.0}) {
+          CHECK(axis.values(0, cell, xi).sum() == Approx(1).epsilon(1e-14));
+          CHECK(axis.values(1, cell, xi).sum() == Approx(1).epsilon(1e-14));
+          const VectorXd of_less = axis.values(1, cell, xi);
+          const VectorXd slopes = MatrixXd(derivative).block(cell, cell, k, k + 1).transpose() * of_less;
+          CHECK((slopes - axis.slopes(0, cell, xi)).norm() < 1e-12);
+        }
+      CHECK(axis.integrals(0).sum() == Approx(2));
+    }
+}
+
+TEST_CASE("solenoidal velocities have no divergence at any point, whatever the sides", "[incompressible]") {
+  for (const Box kind : {Box::Walls, Box::ChannelX, Box::ChannelY, Box::Periodic})
+    for (const int k : {2, 3, 4}) {
+      const Scene scene = box(kind);
+      const VelocitySpace space(scene, k);
+      const SparseMatrix basis = space.solenoidal_basis();
+      const VelocityField field = space.extended(basis * arbitrary(basis.cols()));
+      for (const Vec2& x : scattered) {
+        const Mat2 l = space.gradient(field, x);
+        CHECK(std::abs(l.trace()) < 1e-12 * (1 + l.norm()));
+      }
+      // As many as velocities less the pressures that bind them (constants bind nothing).
+      const Eigen::Index pressures =
+          static_cast<Eigen::Index>(space.axis(0).tangential().count) * space.axis(1).tangential().count - 1;
+      CHECK(basis.cols() == space.size() - pressures);
+    }
+}
+
+TEST_CASE("normal velocities vanish on walls", "[incompressible]") {
+  const Scene scene = box(Box::Walls);
+  const VelocitySpace space(scene, 3);
+  const VelocityField field = space.extended(arbitrary(space.size()));
+  for (const double s : {0.0, 0.21, 0.5, 1.0}) {
+    CHECK(std::abs(space.value(field, {0, 1.5 * s}).x()) < 1e-14);
+    CHECK(std::abs(space.value(field, {1, 1.5 * s}).x()) < 1e-14);
+    CHECK(std::abs(space.value(field, {s, 0}).y()) < 1e-14);
+    CHECK(std::abs(space.value(field, {s, 1.5}).y()) < 1e-14);
+  }
+}
+
+TEST_CASE("the exact mass inverts itself, and weighs a uniform field", "[incompressible]") {
+  for (const Box kind : {Box::Walls, Box::ChannelX, Box::Periodic}) {
+    const VelocitySpace space(box(kind), 3);
+    const ExactMass mass(space);
+    const VectorXd z = arbitrary(space.size());
+    CHECK((mass.solved(mass.times(z)) - z).norm() < 1e-11 * z.norm());
+    CHECK((mass.matrix() * z - mass.times(z)).norm() < 1e-13 * z.norm());
+    if (kind == Box::Periodic) CHECK(mass.times(VectorXd::Ones(space.size())).sum() == Approx(2 * 1.5));
+  }
+}
+
+TEST_CASE("the fit gives back what the grid can carry, for any number of threads", "[incompressible]") {
+  const Scene scene = box(Box::Walls, 20);
+  const VelocitySpace space(scene, 3);
+  const ExactMass mass(space);
+  const VectorXd z = arbitrary(space.size());
+  const VelocityField field = space.extended(z);
+  const Particles particles = seed_particles(scene);
+  VectorField velocity;
+  for (const Vec2& x : particles.position) velocity.push_back(space.value(field, x));
+  std::vector<double> volume(particles.size(), 1.5 / static_cast<double>(particles.size()));
+  ThreadTeam one(1), three(3);
+  ParticleFit<3> fit(space, mass, 1e-5), again(space, mass, 1e-5);
+  const VectorXd fitted = fit.fitted(volume, particles.position, velocity, z, one);
+  CHECK((fitted - z).lpNorm<Eigen::Infinity>() < 1e-9);
+  CHECK(again.fitted(volume, particles.position, velocity, VectorXd::Zero(z.size()), three)
+            .isApprox(z, 1e-3));  // held to nothing by a hundred-thousandth
+  CHECK(again.fitted(volume, particles.position, velocity, z, three) == fitted);
+  CHECK(fit.occupancy() == std::pair{9, 9});
+}
+
+TEST_CASE("Stokes flow in a channel: the parabola stands, and its rise is of second order",
+          "[incompressible]") {
+  Scene scene = box(Box::ChannelX, 8, 0.5);
+  scene.body_acceleration = [](double) { return Vec2(0.3, 0); };
+  const VelocitySpace space(scene, 3);
+  const ExactMass mass(space);
+  Stokes stokes(scene, space, mass, 0.5);
+  VectorXd u = VectorXd::Zero(space.size());
+  for (int i = 0; i < 40; ++i)
+    u = stokes.advanced(u, i * 0.5, 0.5, IncompressibleScheme::Stepping::Sdirk2).end;
+  const auto steady = [](double y) { return 0.3 / (2 * 0.5) * y * (1.5 - y); };
+  for (const double y : {0.1, 0.4, 0.75, 1.2})
+    CHECK(space.value(space.extended(u), {0.3, y}).x() == Approx(steady(y)).epsilon(1e-10));
+
+  for (const auto rule : {IncompressibleScheme::Stepping::Midpoint, IncompressibleScheme::Stepping::Sdirk2}) {
+    std::vector<VectorXd> at_end;
+    for (const int steps : {40, 80, 160}) {
+      VectorXd w = VectorXd::Zero(space.size());
+      const double dt = 0.4 / steps;
+      for (int i = 0; i < steps; ++i) w = stokes.advanced(w, i * dt, dt, rule).end;
+      at_end.push_back(w);
+    }
+    const double order = std::log2((at_end[1] - at_end[0]).norm() / (at_end[2] - at_end[1]).norm());
+    CHECK(order == Approx(2).margin(0.15));
+  }
+}
+
+TEST_CASE("a plate drags the fluid linearly, and the impulse on it is accounted for", "[incompressible]") {
+  Scene scene = box(Box::ChannelX, 8, 0.5);
+  scene.side(Edge::Top) = Side::wall({0.7, 0});
+  const VelocitySpace space(scene, 3);
+  const ExactMass mass(space);
+  Stokes stokes(scene, space, mass, 0.5);
+  VectorXd u = VectorXd::Zero(space.size());
+  Vec2 impulse = Vec2::Zero();
+  for (int i = 0; i < 60; ++i) {
+    const auto step = stokes.advanced(u, i * 0.5, 0.5, IncompressibleScheme::Stepping::Sdirk2);
+    u = step.end;
+    impulse += step.impulse;
+  }
+  for (const double y : {0.1, 0.75, 1.4})
+    CHECK(space.value(space.extended(u), {0.3, y}).x() == Approx(0.7 * y / 1.5).epsilon(1e-10));
+  CHECK(impulse.x() == Approx(0.7 / 2 * 1.5).epsilon(1e-9));  // the fluid's momentum at the end, per density
+}
+
+TEST_CASE("the vortex: solenoidal where particles drift, spread, conserving, the same bits by any threads",
+          "[incompressible]") {
+  const Scene scene = vortex(12, false);
+  IncompressibleScheme scheme;
+  const auto one = make_incompressible_solver(scene, scheme, 1),
+             three = make_incompressible_solver(scene, scheme, 3);
+  const Vec2 momentum = one->totals().momentum;
+  for (int i = 0; i < 20; ++i) {
+    one->advance(i * 0.02, 0.02);
+    three->advance(i * 0.02, 0.02);
+  }
+  CHECK(one->particles().position == three->particles().position);
+  CHECK(one->particles().velocity == three->particles().velocity);
+  CHECK((one->totals().momentum - momentum).norm() < 1e-12 * one->totals().mass);
+  for (const Mat2& l : one->grid_gradient(one->particles().position, 0.4)) CHECK(std::abs(l.trace()) < 1e-11);
+  CHECK_FALSE(one->breakdown());
+}
+
+TEST_CASE("a field that blows up is a breakdown", "[incompressible]") {
+  Scene scene = vortex(8, true);
+  scene.initial_velocity = [](const Vec2& x) { return Vec2(x.y() - 0.5, 0.5 - x.x()); };
+  const auto simulation = make_incompressible_solver(scene, {}, 1);
+  simulation->advance(0, 100);
+  REQUIRE(simulation->breakdown().has_value());
+  CHECK_THAT(*simulation->breakdown(), contains("whole domain in a step"));
+}
+
+TEST_CASE("what the incompressible method does not know is refused", "[incompressible]") {
+  Scene scene = box(Box::Walls);
+  IncompressibleScheme scheme;
+  scheme.degree = 5;
+  CHECK_THROWS_WITH(require_incompressible_fits(scheme, scene), contains("degree"));
+  scheme.degree = 3;
+  scene.fluid.rheology = PowerLaw{1, 0.5, 1e-6, 10};
+  CHECK_THROWS_WITH(require_incompressible_fits(scheme, scene), contains("Newtonian"));
+  scene = box(Box::Walls);
+  scene.side(Edge::Top) = Side::wall({0, 1});
+  CHECK_THROWS_WITH(require_incompressible_fits(scheme, scene), contains("along itself"));
+}
