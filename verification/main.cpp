@@ -72,6 +72,9 @@ int dispatch(int argc, char** argv) {
                     "Write into --out even if it holds files that are no results of ours");
   run_app->add_flag("--fresh", run.fresh, "Run everything, and replace what the cache of finished runs holds")
       ->excludes(no_cache);
+  run_app->add_flag(
+      "--plain", run.plain,
+      "Judge a negative control, a study with [control], as if it were none: red, with exit code 1");
   run_app->add_flag("--resume", run.resume,
                     "Go on with a suite that was stopped or killed in --out: finished runs come from the "
                     "cache, the rest is "

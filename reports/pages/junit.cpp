@@ -47,11 +47,12 @@ std::string xml_text(const std::string& text) {
 
 std::string junit_report(const Results& results) {
   std::string suites;
+  std::size_t all_failed = 0, all_errors = 0;
   double total = std::nan("");
   for (const StudyRecord& study : studies_of(results)) {
     const auto checks = checks_of(results, study.study);
     if (checks.empty()) continue;
-    std::size_t failed = 0;
+    std::size_t failed = 0, errors = 0;
     std::string cases;
     const double wall = wall_time_of(results, study.study);
     // Runs serve all checks of their study: each has an equal share of their time, so that sums over cases
@@ -64,22 +65,27 @@ std::string junit_report(const Results& results) {
         cases += "/>\n";
         continue;
       }
-      ++failed;
-      cases += fmt::format(">\n      <failure type=\"check\" message=\"{}\">{}</failure>\n    </testcase>\n",
+      // Nothing was observed, so nothing could be judged.
+      const bool error = std::isnan(check->observed);
+      ++(error ? errors : failed);
+      cases += fmt::format(">\n      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n    </testcase>\n",
+                           error ? "error" : "failure", error ? "not judged" : "check",
                            xml_text(fmt::format("observed {}, bounds {}", with_unit(observed(*check), *check),
                                                 with_unit(bounds(*check), *check))),
                            xml_text(check->reason));
     }
     if (!std::isnan(wall)) total = (std::isnan(total) ? 0 : total) + wall;
-    suites +=
-        fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\"{}>\n{}",
-                    xml_text(study.study), checks.size(), failed, time_attribute(wall), cases);
+    suites += fmt::format(
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"0\"{}>\n{}",
+        xml_text(study.study), checks.size(), failed, errors, time_attribute(wall), cases);
+    all_failed += failed;
+    all_errors += errors;
     suites += "  </testsuite>\n";
   }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<testsuites name=\"mpm-verify\" tests=\"{}\" failures=\"{}\" errors=\"0\"{}>\n{}</testsuites>\n",
-      results.checks.size(), failures(results).size(), time_attribute(total), suites);
+      "<testsuites name=\"mpm-verify\" tests=\"{}\" failures=\"{}\" errors=\"{}\"{}>\n{}</testsuites>\n",
+      results.checks.size(), all_failed, all_errors, time_attribute(total), suites);
 }
 
 }  // namespace reports

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "reports/pages/sections/controls.hpp"
 #include "reports/pages/sections/matrix.hpp"
 #include "reports/pages/sections/stability.hpp"
 #include "reports/summaries/scoreboard.hpp"
@@ -185,6 +186,7 @@ std::string markdown_report(const ReportData& data) {
   if (!data.warnings.empty()) text += "\n## Warnings\n\n";
   for (const std::string& warning : data.warnings) text += "- " + markdown_text(warning) + "\n";
   text += claim_section(data.results.claims);
+  text += markdown_controls(data.results.controls);
   text += markdown_scoreboard(data.results.scores);
   text += markdown_matrix(data.results.matrix);
   text += markdown_cheapest(data.results);

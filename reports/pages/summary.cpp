@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reports/pages/report_markdown.hpp"
+#include "reports/pages/sections/controls.hpp"
 #include "reports/records/changes.hpp"
 #include "reports/records/chapters.hpp"
 
@@ -79,6 +80,8 @@ std::string markdown_summary(const ReportData& data) {
     text += fmt::format(" mpm-verify {} ({}), {}.", brief(data.provenance->build.version, 40),
                         brief(data.provenance->build.commit, 60), brief(data.provenance->started, 40));
   text += "\n\nSince the last run: " + brief(changes_line(data.changes), 300) + ".\n";
+  if (const std::string controls = controls_line(data.results.controls); !controls.empty())
+    text += "\n" + controls + ".\n";
   // Failures may take most of the room; the parts after them are bounded each.
   text += failure_rows(data, summary_limit / 2);
   std::size_t warned = 0;

@@ -71,6 +71,9 @@ struct ErrorRecord {
   double t = 0;          ///< [s]
   std::string location;  ///< "grid" or "particles"
   double l1 = 0, l2 = 0, linf = 0;
+  double scale = std::numeric_limits<double>::quiet_NaN();  ///< that they are relative to [m/s]
+  double exact_max =
+      std::numeric_limits<double>::quiet_NaN();  ///< fastest exact velocity there and then [m/s]
 };
 
 /// levels.csv: one point of one refinement ladder, the data behind one row of orders.csv.
@@ -108,6 +111,18 @@ struct CheckRecord {
   std::string unit;
   std::string verdict;  ///< "pass" or "fail"
   std::string reason;   ///< where the bounds come from
+};
+
+/// controls.csv: a fault that is planted on purpose, and what the program said of it. Only there when a suite
+/// has some.
+struct ControlRecord {
+  std::string study;
+  std::string planted;    ///< what is wrong
+  std::string must_fail;  ///< the checks that must be red for it; "" where nothing may be
+  std::string said;       ///< which checks were red, and what they observed
+  long exit_code = 0;     ///< of the program that judged it alone
+  std::string results;    ///< its own report and tables, relative to the directory
+  bool seen = false;      ///< everything was said as it must be
 };
 
 /// timing.csv: the only file that may differ between two runs of the same build.
@@ -266,6 +281,7 @@ struct Results {
   std::vector<MatrixRecord> matrix;
   std::vector<ScoreRecord> scores;
   std::vector<StabilityRecord> stability;
+  std::vector<ControlRecord> controls;
   std::vector<ValidationRecord> validation;
   std::vector<JointValidationRecord> joint_validation;
   std::vector<ValidationBiasRecord> validation_bias;

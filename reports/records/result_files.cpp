@@ -63,7 +63,18 @@ constexpr auto error_columns = std::make_tuple(  //
     column("location", &ErrorRecord::location),  //
     column("l1", &ErrorRecord::l1),              //
     column("l2", &ErrorRecord::l2),              //
-    column("linf", &ErrorRecord::linf));
+    column("linf", &ErrorRecord::linf),          //
+    column("scale", &ErrorRecord::scale),        //
+    column("exact_max", &ErrorRecord::exact_max));
+
+constexpr auto control_columns = std::make_tuple(    //
+    column("study", &ControlRecord::study),          //
+    column("planted", &ControlRecord::planted),      //
+    column("must_fail", &ControlRecord::must_fail),  //
+    column("said", &ControlRecord::said),            //
+    column("exit_code", &ControlRecord::exit_code),  //
+    column("results", &ControlRecord::results),      //
+    column("seen", &ControlRecord::seen));
 
 constexpr auto level_columns = std::make_tuple(  //
     column("study", &LevelRecord::study),        //
@@ -281,6 +292,8 @@ Results read_results(const std::filesystem::path& dir) {
   results.matrix = read_csv(dir / "matrix.csv", matrix_columns);
   results.scores = read_csv(dir / "scoreboard.csv", score_columns);
   results.stability = read_csv(dir / "stability.csv", stability_columns);
+  if (std::filesystem::exists(dir / "controls.csv"))
+    results.controls = read_csv(dir / "controls.csv", control_columns);
   read_validation(dir, results);
   require_plain_names(results);
   return results;
@@ -320,6 +333,8 @@ void write_results(const std::filesystem::path& dir, const Results& results, Dur
   write_csv(dir / "matrix.csv", matrix_columns, results.matrix, durability);
   write_csv(dir / "scoreboard.csv", score_columns, results.scores, durability);
   write_csv(dir / "stability.csv", stability_columns, results.stability, durability);
+  if (!results.controls.empty())
+    write_csv(dir / "controls.csv", control_columns, results.controls, durability);
   write_validation(dir, results, durability);
 }
 
@@ -327,11 +342,11 @@ void remove_tables(const std::filesystem::path& dir) {
   std::error_code ignored;
   // checks.csv goes first: without it nobody takes what is left for a result.
   for (const char* name :
-       {"checks.csv",     "report.html",          "report.pdf",         "report.md",      "summary.md",
-        "junit.xml",      "studies.csv",          "chapters.csv",       "headlines.csv",  "changes.csv",
-        "runs.csv",       "errors.csv",           "levels.csv",         "orders.csv",     "timing.csv",
-        "figures.csv",    "claims.csv",           "matrix.csv",         "scoreboard.csv", "stability.csv",
-        "validation.csv", "validation-joint.csv", "validation-bias.csv"})
+       {"checks.csv",   "report.html",    "report.pdf",           "report.md",          "summary.md",
+        "junit.xml",    "studies.csv",    "chapters.csv",         "headlines.csv",      "changes.csv",
+        "runs.csv",     "errors.csv",     "levels.csv",           "orders.csv",         "timing.csv",
+        "figures.csv",  "claims.csv",     "matrix.csv",           "scoreboard.csv",     "stability.csv",
+        "controls.csv", "validation.csv", "validation-joint.csv", "validation-bias.csv"})
     std::filesystem::remove(dir / name, ignored);
   for (const char* part : {".", "profiles", "scenes", "figures"})
     if (!std::filesystem::is_symlink(dir / part, ignored))

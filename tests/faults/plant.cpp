@@ -102,7 +102,8 @@ int main(int argc, char** argv) try {
       complaints += std::string(error.what()) + "\n";
     }
   if (!complaints.empty()) throw std::runtime_error(complaints);
-  for (const char* part : {"CMakeLists.txt", "solver", "reference", "reports", "verification", "tests"}) {
+  for (const char* part : {"CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "CITATION.cff",
+                           "packaging", "docs", "solver", "reference", "reports", "verification", "tests"}) {
     const auto copy = [&](const fs::path& file) {
       const std::string name = fs::relative(file, source).string();
       const auto text = texts.find(name);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "verification/runs/measures.hpp"
+
 namespace verification {
 
 std::string label(const std::string& variant) {
@@ -52,6 +54,39 @@ void read_times(TomlTable& table, const Study& study, CheckSpec& spec) {
       if (std::ranges::count(run.scene.outputs, t) == 0)
         table.fail("times", fmt::format("{} s is no output time of run {}", t, run.run));
   }
+}
+
+void read_scale(TomlTable& table, CheckSpec& spec) {
+  if (!table.has("relative_to")) return;
+  if (table.is_text("relative_to")) {
+    spec.relative_to = table.text("relative_to");
+    if (spec.relative_to != "steady" && spec.relative_to != "present")
+      table.fail("relative_to", "must be \"steady\", \"present\" or a velocity in m/s");
+    return;
+  }
+  spec.relative_to = "value";
+  spec.scale = table.positive("relative_to");
+}
+
+double relative_error(const CheckSpec& spec, const RunData& run, const reports::ErrorRecord& error) {
+  const double norm = pick(error, spec.norm);
+  if (spec.relative_to == "steady") return norm * error.scale / run.plan->scene.flow->velocity_scale();
+  if (spec.relative_to == "present") return norm * error.scale / error.exact_max;
+  if (spec.relative_to == "value") return norm * error.scale / spec.scale;
+  return norm;
+}
+
+CheckSpec with_scale(CheckSpec spec, const reports::ErrorRecord& error) {
+  const double times = error.scale / error.exact_max;
+  if (spec.relative_to == "present")
+    spec.reason += " (relative to the fastest exact velocity at its time)";
+  else if (spec.relative_to == "value")
+    spec.reason += fmt::format(" (relative to {:.3g} m/s)", spec.scale);
+  else if (spec.relative_to.empty() && times > large_scale)
+    spec.reason +=
+        fmt::format(" (warning: relative to {:.3g} m/s, {:.2g} times the fastest exact velocity at its time)",
+                    error.scale, times);
+  return spec;
 }
 
 bool is_level(const PlannedRun& run, const std::string& tag) {

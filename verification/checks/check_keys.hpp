@@ -19,6 +19,16 @@ void read_level(TomlTable& table, const Study& study, CheckSpec& spec);
 /// `against`: another variant.
 void read_against(TomlTable& table, const Study& study, CheckSpec& spec);
 
+/// `relative_to`: what errors are judged against, in place of the flow's own scale.
+void read_scale(TomlTable& table, CheckSpec& spec);
+
+/// A scale this many times the fastest exact velocity of its time hides errors.
+inline constexpr double large_scale = 3;
+/// The check's norm of an error, relative to what the check says.
+double relative_error(const CheckSpec& spec, const RunData& run, const reports::ErrorRecord& error);
+/// The check with a word on its scale, where that is not the usual one or hides errors.
+CheckSpec with_scale(CheckSpec spec, const reports::ErrorRecord& error);
+
 /// Runs of a variant at the level chosen.
 std::vector<const RunData*> levels_of(const CheckSpec& spec, const StudyData& data,
                                       const std::string& variant);

@@ -10,6 +10,7 @@
 #include "verification/checks/comparison.hpp"
 #include "verification/checks/outcome_check.hpp"
 #include "verification/checks/stability_checks.hpp"
+#include "verification/convergence/order_remark.hpp"
 #include "verification/runs/measures.hpp"
 #include "verification/runs/scheme_matrix.hpp"
 
@@ -27,6 +28,7 @@ void read_error(TomlTable& table, const Study& study, CheckSpec& spec) {
   read_norm(table, spec);
   read_times(table, study, spec);
   read_level(table, study, spec);
+  read_scale(table, spec);
 }
 
 void evaluate_error(const CheckSpec& spec, const StudyData& data, Records& records) {
@@ -35,10 +37,10 @@ void evaluate_error(const CheckSpec& spec, const StudyData& data, Records& recor
       for (const reports::ErrorRecord& error : run->errors)
         for (const Location location : spec.locations)
           if (error.location == name(location) && std::ranges::count(spec.times, error.t) > 0)
-            records.push_back(judge(spec, data,
+            records.push_back(judge(with_scale(spec, error), data,
                                     fmt::format("{}{} error, {}, t = {} s", label(spec, *run), spec.norm,
                                                 error.location, error.t),
-                                    pick(error, spec.norm), "1"));
+                                    relative_error(spec, *run, error), "1"));
 }
 
 // ---- order: the observed convergence order in a band
@@ -57,6 +59,15 @@ void read_order(TomlTable& table, const Study& study, CheckSpec& spec) {
 /// The end of an order's interval that lies farther out of the band, or nearer to leaving it.
 double worse_end(const CheckSpec& spec, const reports::OrderRecord& order) {
   return spec.lower - order.ci_lower > order.ci_upper - spec.upper ? order.ci_lower : order.ci_upper;
+}
+
+std::vector<reports::LevelRecord> levels_behind(const StudyData& data, const reports::OrderRecord& order) {
+  std::vector<reports::LevelRecord> levels;
+  for (const reports::LevelRecord& level : data.levels)
+    if (level.variant == order.variant && level.location == order.location && level.norm == order.norm &&
+        level.t == order.t)
+      levels.push_back(level);
+  return levels;
 }
 
 /// A check of an order with what its interval has to say.
@@ -83,10 +94,12 @@ void evaluate_order(const CheckSpec& spec, const StudyData& data, Records& recor
           std::ranges::count(spec.times, order.t) > 0) {
         const double value = spec.whole_interval ? worse_end(spec, order) : order.observed;
         const double observed = order.classification == "monotone" ? value : nan;
-        records.push_back(judge(with_interval(spec, order), data,
+        CheckSpec remarked = with_interval(spec, order);
+        remarked.reason += order_remark(order, levels_behind(data, order));
+        records.push_back(judge(remarked, data,
                                 fmt::format("{}{} order, {} {}, t = {} s", label(order.variant), order.axis,
                                             order.location, order.norm, order.t),
-                                observed, "1"));
+                                observed, unit_of(order, observed)));
       }
 }
 
@@ -119,7 +132,8 @@ void evaluate_formal_order(const CheckSpec& spec, const StudyData& data, Records
       band.lower = order.theoretical - spec.tolerance;
       band.upper = order.theoretical + spec.tolerance;
       const bool usable = order.classification == "monotone" || order.theoretical <= 0;
-      records.push_back(judge(band, data, what, usable ? order.observed : nan, "1"));
+      const double observed = usable ? order.observed : nan;
+      records.push_back(judge(band, data, what, observed, unit_of(order, observed)));
     }
 }
 

@@ -25,6 +25,10 @@ CheckSpec read_check(TomlTable& table, const Study& study);
 /// of it.
 void evaluate_checks(StudyData& data);
 
+/// Fails the study if it has made another number of checks, those of [validation] included, than it says, or
+/// than it must by its [[check]]s.
+void require_all_checks(StudyData& data);
+
 /// lower <= observed <= upper; a NaN fails.
 reports::CheckRecord judge(const CheckSpec& spec, const StudyData& data, const std::string& check,
                            double observed, const std::string& unit);

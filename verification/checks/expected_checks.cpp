@@ -47,8 +47,18 @@ bool declares_fate(const Study& study) {
   });
 }
 
+std::size_t expected_gates(const Study& study) {
+  if (!study.validation) return 0;
+  const auto compared = std::ranges::count_if(
+      study.variants, [&](const std::string& variant) { return study.validation->compares(variant); });
+  std::size_t rows = 0;
+  for (const MeasurementTable& table : study.validation->tables) rows += table.rows.size();
+  return rows * static_cast<std::size_t>(compared);
+}
+
 std::optional<std::size_t> expected_checks(const Study& study) {
   std::size_t total = study.runs.empty() || declares_fate(study) ? 0 : 1;
+  total += expected_gates(study);
   for (const CheckSpec& spec : study.checks) {
     const auto expected = expected_checks(spec, study);
     if (!expected) return std::nullopt;

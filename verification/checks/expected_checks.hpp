@@ -10,7 +10,11 @@ namespace verification {
 /// depends on what is found. A kind that is not counted here is an error of ours (std::logic_error).
 std::optional<std::size_t> expected_checks(const CheckSpec& spec, const Study& study);
 
-/// The same for the whole study, with the check that every run completes; none where any part has none.
+/// Values that a [validation] compares: each is a check of its own.
+std::size_t expected_gates(const Study& study);
+
+/// Checks of the whole study, with those of [validation] and the one that every run completes; none where any
+/// part has none.
 std::optional<std::size_t> expected_checks(const Study& study);
 
 /// Whether the study says itself which of its runs break down.

@@ -37,6 +37,7 @@ struct RunOptions {
   std::filesystem::path out = "results";
   int jobs = 0;                ///< 0: as many as there are cores
   bool no_cache = false;       ///< leave the cache of finished runs alone
+  bool plain = false;          ///< judge negative controls as if they were none
   bool fresh = false;          ///< run everything, and replace what the cache holds
   bool force = false;          ///< `out` may hold files that are not ours
   bool resume = false;         ///< `out` must hold a suite that was begun

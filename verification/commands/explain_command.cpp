@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "verification/checks/expected_checks.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/output.hpp"
 #include "verification/reading/study_folder.hpp"
@@ -89,6 +90,14 @@ int explain_command(const ExplainOptions& options) {
         return c.kind == "divergence" || c.kind == "outcome";
       }))
     say("- runs that did not complete: 0\n  no run of this study is expected to diverge\n");
+  if (const auto expected = study.declared_checks ? study.declared_checks : expected_checks(study))
+    say("{} checks in all\n", *expected);
+  if (study.control) {
+    say("\nnegative control, planted: {}\n", study.control->planted);
+    for (const ControlSpec::MustFail& must : study.control->must_fail)
+      say("- must be red: {} ({}){}\n", must.check, must.count,
+          must.because.empty() ? "" : ", because of \"" + must.because + "\"");
+  }
   for (const ClaimSpec& claim : study.claims)
     say("\nclaim ({}): {}\n  declared: {}. {}\n", claim.source, claim.statement, claim.verdict, claim.note);
   if (!study.figures.empty()) say("\nfigures:\n");

@@ -29,7 +29,8 @@ int job_count(int asked) {
 
 int run_command(const RunOptions& options) {
   if (!options.shard.empty()) return shard_command(options);
-  const std::vector<Study> studies = chosen_studies(options.studies, options.names, options.suite);
+  const std::vector<Study> studies = chosen_studies(options.studies, options.names, options.suite,
+                                                    options.plain ? Controls::Plain : Controls::Judged);
   const std::filesystem::path kept = options.no_cache ? std::filesystem::path() : cache_directory();
   RunCache cache(kept, options.fresh ? CacheUse::Refresh : CacheUse::Reuse);
   if (options.resume) require_begun(options, cache);

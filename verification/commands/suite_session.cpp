@@ -17,6 +17,7 @@
 #include "verification/commands/provenance_of.hpp"
 #include "verification/commands/terminal.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/reading/control_reader.hpp"
 #include "verification/reading/scoreboard_reader.hpp"
 #include "verification/reading/study_folder.hpp"
 #include "verification/reading/study_reader.hpp"
@@ -91,7 +92,7 @@ class TimeLeft {
 }  // namespace
 
 std::vector<Study> chosen_studies(const std::filesystem::path& studies, const std::vector<std::string>& names,
-                                  const std::string& suite_name) {
+                                  const std::string& suite_name, Controls controls) {
   const Suite suite = suite_named(suite_name.empty() ? (names.empty() ? "full" : "deep") : suite_name);
   std::vector<Study> chosen;
   if (names.empty()) {
@@ -103,6 +104,10 @@ std::vector<Study> chosen_studies(const std::filesystem::path& studies, const st
     if (std::ranges::any_of(chosen, [&](const Study& other) { return other.name == study.name; }))
       throw ConfigError("study '" + study.name + "' is named twice");
     if (restrict_to(study, suite)) chosen.push_back(std::move(study));
+  }
+  for (Study& study : chosen) {
+    if (controls == Controls::Plain) study.control.reset();
+    if (study.control) leave_to_control(study);
   }
   require_distinct_runs(chosen);
   if (chosen.empty()) throw ConfigError("no study of that suite: nothing would be verified");

@@ -9,10 +9,13 @@
 
 namespace verification {
 
+/// Negative controls are judged as what they are, or as studies like any other.
+enum class Controls { Judged, Plain };
+
 /// Studies named by the user (a name, or the path of a .toml file), or those of the suite ("": full, or all
 /// that is named). Throws ConfigError, also when there is none.
 std::vector<Study> chosen_studies(const std::filesystem::path& studies, const std::vector<std::string>& names,
-                                  const std::string& suite);
+                                  const std::string& suite, Controls controls = Controls::Judged);
 
 /// How a suite is run and told of.
 struct SuiteSession {

@@ -10,6 +10,7 @@
 #include "verification/checks/check_reader.hpp"
 #include "verification/checks/expected_checks.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/reading/control_reader.hpp"
 #include "verification/reading/figure_reader.hpp"
 #include "verification/reading/scoreboard_reader.hpp"
 #include "verification/reading/solver_reader.hpp"
@@ -245,7 +246,7 @@ void read_declared_checks(TomlTable& root, Study& study) {
   const auto computed = expected_checks(study);
   if (computed && *computed != *study.declared_checks)
     root.fail("expected_checks",
-              fmt::format("says {}, and the checks below come to {}: correct whichever is wrong", declared,
+              fmt::format("says {}, and the checks of this study come to {}: correct whichever is wrong", declared,
                           *computed));
 }
 
@@ -337,6 +338,7 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
       !(study.scoreboard->in_full.empty() && study.scoreboard->in_quick.empty()))
     root.fail("figure",
               "cannot show a study of which a lesser suite runs a part; remove it, or in_full and in_quick");
+  if (root.has("control")) study.control = read_control(root.table("control"), study, file);
   require_delivered(root, study);
   root.refuse_unknown_keys();
   return study;

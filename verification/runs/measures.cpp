@@ -124,14 +124,20 @@ std::vector<reports::ErrorRecord> measure_errors(const RunData& run) {
   for (const double t : run.plan->scene.outputs) {
     for (const Location location : {Location::Grid, Location::Particles}) {
       std::vector<Eigen::Vector2d> errors;
-      for (const reports::ProfileRow* row : rows_at(run, t, location))
+      double exact_max = nan;
+      for (const reports::ProfileRow* row : rows_at(run, t, location)) {
+        const double exact = std::hypot(row->u_exact, row->v_exact);
+        if (!(exact <= exact_max) && !std::isnan(exact)) exact_max = exact;
         if (!is_tabulated || location == Location::Particles)
           errors.emplace_back(row->u - row->u_exact, row->v - row->v_exact);
         else
           errors.emplace_back(std::isnan(row->u_exact) ? 0 : row->u - row->u_exact,
                               std::isnan(row->v_exact) ? 0 : row->v - row->v_exact);
-      const Norms norms = norms_or_nan(errors, run.plan->scene.flow->velocity_scale_at(t));
-      records.push_back({run.record.run, t, name(location), norms.l1, norms.l2, norms.linf});
+      }
+      const double scale = run.plan->scene.flow->velocity_scale_at(t);
+      const Norms norms = norms_or_nan(errors, scale);
+      records.push_back(
+          {run.record.run, t, name(location), norms.l1, norms.l2, norms.linf, scale, exact_max});
     }
   }
   return records;

@@ -46,6 +46,7 @@ struct StudyData {
   std::vector<reports::JointValidationRecord> joint_validation;
   std::vector<reports::StabilityRecord> stability;       ///< in the order of study->stability.cases
   std::vector<reports::TimingRecord> stability_timings;  ///< one a case
+  std::vector<reports::ControlRecord> controls;          ///< one, of a negative control
 
   [[nodiscard]] std::vector<const RunData*> runs_of(const std::string& variant) const {
     std::vector<const RunData*> found;

@@ -10,6 +10,7 @@
 #include "reports/records/records.hpp"
 #include "verification/scene/scene_config.hpp"
 #include "verification/stability/stability_plan.hpp"
+#include "verification/study/control.hpp"
 #include "verification/study/foreign_solver.hpp"
 #include "verification/study/scoreboard.hpp"
 #include "verification/study/validation.hpp"
@@ -66,6 +67,9 @@ struct CheckSpec {
   std::vector<std::string> variants;  ///< that it speaks of
   std::vector<Location> locations;
   std::string norm;  ///< "l1", "l2", "linf"
+  /// What errors are judged against: "" for the flow's own scale, "steady", "present", or "value".
+  std::string relative_to;
+  double scale = 0;  ///< "value": [m/s]
   /// Of an order: its whole 95 % interval must lie in the band, not its point value alone.
   bool whole_interval = false;
   std::vector<double> times;   ///< [s]
@@ -116,6 +120,7 @@ struct Study {
   std::vector<reports::FigureRecord> figures;
   std::optional<Scoreboard> scoreboard;      ///< of a hard case
   std::optional<ValidationSpec> validation;  ///< measurements that its runs are compared with
+  std::optional<ControlSpec> control;        ///< a fault is planted in it: its checks must be red
 
   [[nodiscard]] double particle_steps() const;
   /// Runs of one variant, coarse to fine.

@@ -12,6 +12,7 @@ namespace {
 
 /// What the scenes of a study were declared not to need (DESIGN: model only what a scene needs).
 std::string left_out(const Study& study) {
+  if (study.control) return "";
   if (std::ranges::any_of(study.runs, [](const PlannedRun& r) { return r.solver != nullptr; }))
     return "";  // what a foreign solver does without is not ours to say
   if (study.runs.empty()) return "walls (a uniform periodic lattice)";
@@ -63,6 +64,7 @@ reports::Results collect(const std::vector<const StudyData*>& studies) {
     append(results.matrix, data->matrix);
     append(results.scores, data->scores);
     append(results.stability, data->stability);
+    append(results.controls, data->controls);
     append(results.validation, data->validation);
     append(results.joint_validation, data->joint_validation);
     append(results.timings, data->stability_timings);

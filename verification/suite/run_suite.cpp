@@ -19,6 +19,7 @@
 #include "verification/runs/scores.hpp"
 #include "verification/runs/validate.hpp"
 #include "verification/suite/collect.hpp"
+#include "verification/suite/run_control.hpp"
 #include "verification/suite/run_entry.hpp"
 #include "verification/suite/schedule.hpp"
 #include "verification/suite/slots.hpp"
@@ -58,7 +59,7 @@ class SuiteRunner {
       data.runs.resize(study.runs.size());
       data_.push_back(std::move(data));
       limits_.emplace_back(study.stability.cases.size());
-      remaining_.push_back(study.runs.size() + study.stability.cases.size());
+      remaining_.push_back(study.runs.size() + study.stability.cases.size() + (study.control ? 1 : 0));
       outcome_.runs += static_cast<long>(remaining_.back());
     }
   }
@@ -75,6 +76,8 @@ class SuiteRunner {
           return prepare(job);
         case Job::Kind::Limit:
           return measure(job);
+        case Job::Kind::Control:
+          return control(job);
         default:
           return perform(job);
       }
@@ -160,6 +163,25 @@ class SuiteRunner {
     conclude(data);
   }
 
+  void control(const Job& job) {
+    throw_if_interrupted();
+    const Study& study = studies_[job.study];
+    ControlOutcome outcome = run_control(study, out_);
+    reports::TimingRecord timing;
+    timing.run = study.name;
+    timing.wall_s = outcome.wall_s;
+    timing.particle_steps_per_s = std::numeric_limits<double>::quiet_NaN();
+
+    std::unique_lock lock(mutex_);
+    StudyData& data = data_[job.study];
+    data.checks = std::move(outcome.checks);
+    data.controls = {std::move(outcome.record)};
+    data.stability_timings = {timing};
+    if (!count(job, study.name, false)) return;
+    lock.unlock();
+    conclude(data);
+  }
+
   /// Notes, under the lock, that a job has ended. True when it was the last of its study.
   bool count(const Job& job, const std::string& name, bool from_cache) {
     outcome_.from_cache += from_cache;
@@ -212,6 +234,7 @@ class SuiteRunner {
     data.matrix = matrix_records(data);
     data.scores = score_records(data);
     validate(data);
+    require_all_checks(data);
     const bool failed =
         std::ranges::any_of(data.checks, [](const auto& check) { return check.verdict != "pass"; });
     for (RunData& run : data.runs) {

@@ -36,6 +36,8 @@ Schedule schedule(const std::vector<Study>& studies) {
     for (std::size_t c = 0; c < studies[s].stability.cases.size(); ++c)
       schedule.shared.push_back(
           {s, c, studies[s].stability.cost(studies[s].stability.cases[c]), Job::Kind::Limit});
+  for (std::size_t s = 0; s < studies.size(); ++s)
+    if (studies[s].control) schedule.shared.push_back({s, 0, 0, Job::Kind::Control});
   std::ranges::stable_sort(schedule.shared, std::ranges::greater{}, &Job::cost);
   return schedule;
 }

@@ -9,10 +9,10 @@
 
 namespace verification {
 
-/// One piece of a suite's work: run `run` of study `study`, case `run` of its [stability], or the reference
-/// that a run needs.
+/// One piece of a suite's work: run `run` of study `study`, case `run` of its [stability], the reference that
+/// a run needs, or the study's [control].
 struct Job {
-  enum class Kind { Run, Limit, Reference };
+  enum class Kind { Run, Limit, Reference, Control };
 
   std::size_t study, run;
   double cost;  ///< estimated, in arbitrary units

@@ -6,6 +6,7 @@
 
 #include "reports/pages/html/first_screen.hpp"
 #include "reports/pages/html/page.hpp"
+#include "reports/pages/sections/controls.hpp"
 #include "reports/pages/sections/matrix.hpp"
 #include "reports/pages/sections/scoreboard.hpp"
 #include "reports/pages/sections/stability.hpp"
@@ -118,6 +119,7 @@ std::string html_chapter(const ReportData& data, const Chapter& chapter, PageFig
   if (!chapter.paragraph.empty()) text += "<p>" + html_text(chapter.paragraph) + "</p>\n";
   if (!chapter.figure.empty()) text += figures.shown(chapter.figure);
   text += html_claims(results, chapter);
+  text += html_controls(those_of(results.controls, chapter));
   text += study_table(data, chapter);
   text += html_validation(results, chapter, figures);
   text += html_scoreboard(those_of(results.scores, chapter));

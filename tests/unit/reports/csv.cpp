@@ -164,7 +164,7 @@ TEST_CASE("the columns are those that the README names", "[reports]") {
   write_results(dir.path(), {});
   CHECK(read_file(dir / "runs.csv") ==
         "run,study,scene,fluid,method,basis,transfer,stepping,reset,cells,particles,dt,steps,status\n");
-  CHECK(read_file(dir / "errors.csv") == "run,t,location,l1,l2,linf\n");
+  CHECK(read_file(dir / "errors.csv") == "run,t,location,l1,l2,linf,scale,exact_max\n");
   CHECK(read_file(dir / "checks.csv") == "study,check,observed,lower,upper,unit,verdict,reason\n");
   CHECK(read_file(dir / "timing.csv") == "run,wall_s,particle_steps_per_s,repetitions,spread,source\n");
   write_profile(dir.path(), "r", {});

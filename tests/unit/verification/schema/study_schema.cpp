@@ -47,6 +47,8 @@ std::vector<std::string> further_studies() {
           any_check,
       channel + "[solver]\nresults = \"theirs/{run}\"\n" + any_check,
       "expected_checks = 1\n" + channel + any_check,
+      channel + "[[check]]\nkind = \"error\"\nrelative_to = \"present\"\nupper = 1\nreason = \"any\"\n" +
+          "[[check]]\nkind = \"error\"\nrelative_to = 1e-4\nupper = 1\nreason = \"any\"\n",
       channel +
           "[validation]\nvelocity = 1\nlength = 1\nvariants = [\"\"]\n[[validation.input]]\n"
           "key = \"fluid.density\"\nuncertainty = 1\nsource = \"any\"\n[[validation.quantity]]\n"
@@ -148,6 +150,13 @@ TEST_CASE("every study that comes with the program obeys the schema", "[schema]"
       FAIL_CHECK(complaint);
   }
   CHECK(studies > 100);
+}
+
+TEST_CASE("every study that comes with the program says how many checks it makes", "[schema]") {
+  for (const Study& study : read_studies(MPM_STUDIES)) {
+    INFO(study.name);
+    CHECK(study.declared_checks.has_value());
+  }
 }
 
 TEST_CASE("the schema refuses what the readers refuse", "[schema]") {
