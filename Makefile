@@ -10,7 +10,7 @@ PDF     := $(if $(shell command -v chromium || command -v chromium-browser || co
 # Seconds that `make fuzz` gives each of its three harnesses.
 FUZZ_SECONDS ?= 60
 
-.PHONY: verify verify-quick verify-deep verify-slurm test bench fuzz faults package program packages configure clean
+.PHONY: verify verify-quick verify-deep verify-slurm test bench fuzz fuzz-mutations faults package program packages configure clean
 
 verify: program
 	$(PROGRAM) run --suite full --out $(RESULTS) $(PDF)
@@ -37,6 +37,16 @@ fuzz: packages
 	cmake --preset fuzz
 	cmake --build build-fuzz --target fuzz-scene fuzz-study fuzz-csv
 	sh tests/fuzz/run-fuzz build-fuzz/tests $(FUZZ_SECONDS)
+
+# The same readers by mutations of what is shipped, with the compiler that is there: a third of FUZZ_SECONDS each. Other
+# inputs for every commit; what goes wrong is left in $(BUILD)/fuzzed-input.
+fuzz-mutations: configure
+	cmake --build $(BUILD) --target fuzzed-scene fuzzed-study fuzzed-csv
+	cd $(BUILD) && export MPM_FUZZ_SEED=$$(git -C $(CURDIR) rev-list --count HEAD 2> /dev/null || echo 1); \
+	third=$$(($(FUZZ_SECONDS) / 3))s; toml="$(CURDIR)/verification/scenes/*.toml $(CURDIR)/tests/fuzz/corpus/*.toml"; \
+	tests/fuzzed-scene $$third $$toml && \
+	tests/fuzzed-study $$third $$toml $$(find $(CURDIR)/verification/studies -name '*.toml') && \
+	tests/fuzzed-csv $$third $(CURDIR)/tests/fuzz/corpus/*.csv
 
 faults: configure
 	cmake --build $(BUILD) --target plant-faults

@@ -1,12 +1,15 @@
 // A harness without libFuzzer, for any compiler: fuzzed-READER COUNT FILE... gives it COUNT mutations of the
-// files, the same ones every time. Whatever the harness lets through (an exception, a signal) ends the
+// files, the same ones every time; fuzzed-READER 20s FILE... as many as 20 s have room for. MPM_FUZZ_SEED=N
+// chooses others. Whatever the harness lets through (an exception, a signal) ends the
 // program; the input is then in fuzzed-input. An input that takes longer than ten seconds ends it with
 // SIGALRM.
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -77,7 +80,7 @@ void mutate(std::string& text, Random& random, const std::vector<std::string>& c
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::cerr << "usage: " << argv[0] << " COUNT FILE...\n";
+    std::cerr << "usage: " << argv[0] << " COUNT|SECONDSs FILE...\n";
     return 2;
   }
   std::vector<std::string> corpus;
@@ -85,15 +88,20 @@ int main(int argc, char** argv) {
     std::ifstream in(argv[i], std::ios::binary);
     corpus.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
   }
-  const long count = std::stol(argv[1]);
-  Random random(1);
-  for (long k = 0; k < count; ++k) {
+  const std::string asked = argv[1];
+  const long number = std::stol(asked);
+  const bool timed = asked.ends_with("s");
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(timed ? number : 0);
+  const char* seed = std::getenv("MPM_FUZZ_SEED");
+  Random random(seed != nullptr ? static_cast<Random::result_type>(std::stoul(seed)) : 1);
+  long k = 0;
+  for (; timed ? std::chrono::steady_clock::now() < end : k < number; ++k) {
     std::string text = corpus[static_cast<std::size_t>(k) % corpus.size()];
     for (std::size_t times = 1 + below(random, 4); times > 0; --times) mutate(text, random, corpus);
     std::ofstream("fuzzed-input", std::ios::binary) << text;
     alarm(10);
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
   }
-  std::cout << count << " inputs, no finding\n";
+  std::cout << k << " inputs, no finding\n";
   return 0;
 }

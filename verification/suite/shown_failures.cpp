@@ -52,8 +52,8 @@ std::vector<Shown> shown_failures(const std::filesystem::path& dir, const std::s
                     report = reports::read_file(dir / "report.md"),
                     summary = reports::read_file(dir / "summary.md");
   std::vector<Shown> shown;
-  shown.push_back(
-      {"the console", if_so(lines_that_begin(printed, verdict) == 1, lines_that_begin(printed, "FAIL  ")), nan});
+  shown.push_back({"the console",
+                   if_so(lines_that_begin(printed, verdict) == 1, lines_that_begin(printed, "FAIL  ")), nan});
 
   const std::size_t failures = count(junit, "<failure "), errors = count(junit, "<error ");
   const std::string totals =
