@@ -126,7 +126,8 @@ void evaluate_checks(StudyData& data) {
 void require_all_checks(StudyData& data) {
   const Study& study = *data.study;
   require_number(data, data.checks.size(),
-                 study.declared_checks ? study.declared_checks : expected_checks(study), "checks made in all");
+                 study.declared_checks ? study.declared_checks : expected_checks(study),
+                 "checks made in all");
 }
 
 }  // namespace verification

@@ -246,8 +246,8 @@ void read_declared_checks(TomlTable& root, Study& study) {
   const auto computed = expected_checks(study);
   if (computed && *computed != *study.declared_checks)
     root.fail("expected_checks",
-              fmt::format("says {}, and the checks of this study come to {}: correct whichever is wrong", declared,
-                          *computed));
+              fmt::format("says {}, and the checks of this study come to {}: correct whichever is wrong",
+                          declared, *computed));
 }
 
 void require_comparable(const TomlTable& root, const Study& study) {
