@@ -22,13 +22,13 @@ namespace mpm::incompressible {
 template <int K>
 class IncompressibleSolver final : public Simulation {
  public:
-  IncompressibleSolver(const Scene& scene, const IncompressibleScheme& scheme, double viscosity, int threads)
+  IncompressibleSolver(const Scene& scene, const IncompressibleScheme& scheme, int threads)
       : scene_(scene),
         scheme_(scheme),
         team_(threads),
         space_(scene, K),
         mass_(space_),
-        stokes_(scene_, space_, mass_, viscosity / scene.fluid.density),
+        stokes_(scene_, space_, mass_),
         fit_(space_, mass_, scheme.regularisation),
         particles_(seed_particles(scene)),
         lattice_(particles_.position),
@@ -70,7 +70,7 @@ class IncompressibleSolver final : public Simulation {
       drift(particles_.position, along, dt, particles_.position);
     drift_.add(middle_field, t + 0.5 * dt);
     now_ = t + dt;
-    judge(dt);
+    judge(dt, step.converged);
   }
 
   [[nodiscard]] std::optional<std::string> breakdown() const override { return breakdown_; }
@@ -156,7 +156,8 @@ class IncompressibleSolver final : public Simulation {
   }
 
   /// Nothing else bounds the velocities of a run that goes wrong: the fit bears any.
-  void judge(double dt) {
+  void judge(double dt, bool converged) {
+    if (!converged) breakdown_ = "the equations of the viscosity were not solved: take a shorter dt";
     if (!field_.allFinite()) breakdown_ = "a velocity is not finite";
     if (field_.lpNorm<Eigen::Infinity>() * dt > scene_.size.maxCoeff())
       breakdown_ = "a particle would cross the whole domain in a step";

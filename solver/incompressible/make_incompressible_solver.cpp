@@ -1,7 +1,5 @@
 #include "solver/incompressible/make_incompressible_solver.hpp"
 
-#include <variant>
-
 #include "solver/incompressible/incompressible_solver.hpp"
 #include "solver/kernel/isa.hpp"
 
@@ -10,8 +8,7 @@ namespace {
 
 template <int K>
 std::unique_ptr<Simulation> make(const Scene& scene, const IncompressibleScheme& scheme, int threads) {
-  const double viscosity = std::get<Newtonian>(scene.fluid.rheology).viscosity();
-  return std::make_unique<incompressible::IncompressibleSolver<K>>(scene, scheme, viscosity, threads);
+  return std::make_unique<incompressible::IncompressibleSolver<K>>(scene, scheme, threads);
 }
 
 }  // namespace
@@ -19,8 +16,6 @@ std::unique_ptr<Simulation> make(const Scene& scene, const IncompressibleScheme&
 void require_incompressible_fits(const IncompressibleScheme& scheme, const Scene& scene) {
   scheme.validate();
   if (scene.free_surface) throw SceneError("an incompressible fluid fills its box: no fluid_region");
-  if (!std::holds_alternative<Newtonian>(scene.fluid.rheology))
-    throw SceneError("the incompressible method is for Newtonian fluids");
   for (const int axis : {0, 1}) {
     if (scene.periodic(axis)) continue;
     for (const int end : {0, 1})

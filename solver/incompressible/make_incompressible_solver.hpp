@@ -13,8 +13,8 @@ namespace mpm {
 std::unique_ptr<Simulation> make_incompressible_solver(const Scene& scene, const IncompressibleScheme& scheme,
                                                        int threads = 0);
 
-/// Throws SceneError for what the incompressible method does not know: free surfaces, fluids other than
-/// Newtonian, walls that move into the fluid.
+/// Throws SceneError for what the incompressible method does not know: free surfaces, walls that move into
+/// the fluid.
 void require_incompressible_fits(const IncompressibleScheme& scheme, const Scene& scene);
 
 }  // namespace mpm

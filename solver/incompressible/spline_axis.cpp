@@ -103,6 +103,15 @@ VectorXd SplineAxis::slopes(int less, int cell, double xi) const {
   return sum / cell_size();
 }
 
+VectorXd SplineAxis::curvatures(int cell, double xi) const {
+  const int size = degree_ + 1;
+  const double* c = polynomials(0, cell);
+  VectorXd sum = VectorXd::Zero(size);
+  for (int m = 0; m + 2 < size; ++m)
+    sum = sum * xi + (size - 1 - m) * (size - 2 - m) * Eigen::Map<const VectorXd>(c + m * size, size);
+  return sum / (cell_size() * cell_size());
+}
+
 template <class Values>
 SparseMatrix SplineAxis::integrated(int less, const Values& values_at) const {
   const CellPoints gauss = cell_points(Seeding::Rule::Gauss, degree_ + 1);

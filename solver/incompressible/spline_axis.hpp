@@ -61,6 +61,8 @@ class SplineAxis {
   /// Values or slopes [1/m] of the functions that are not zero in a cell, at xi in [0, 1].
   [[nodiscard]] VectorXd values(int less, int cell, double xi) const;
   [[nodiscard]] VectorXd slopes(int less, int cell, double xi) const;
+  /// Second derivatives [1/m2] of those of degree k.
+  [[nodiscard]] VectorXd curvatures(int cell, double xi) const;
 
  private:
   [[nodiscard]] double knot(int i, int degree) const;  // in cells

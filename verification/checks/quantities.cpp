@@ -220,6 +220,25 @@ double front_slope(const RunData& run) {
   return covariance / variance;
 }
 
+// ---- where particles are
+
+/// Fewest or most particles in a cell.
+double in_a_cell(const RunData& run, double t, bool fewest) {
+  const mpm::Scene& scene = run.plan->scene.scene;
+  const auto rows = rows_at(run, t, Location::Particles);
+  if (rows.empty()) return nan;
+  std::vector<int> count(static_cast<std::size_t>(scene.cells[0]) * static_cast<std::size_t>(scene.cells[1]));
+  const auto cell = [&](double x, int axis) {
+    const int last = scene.cells[static_cast<std::size_t>(axis)] - 1;
+    return std::clamp(static_cast<int>(x / scene.cell_size(axis)), 0, last);
+  };
+  for (const reports::ProfileRow* row : rows) {
+    if (!std::isfinite(row->x) || !std::isfinite(row->y)) return nan;
+    ++count[static_cast<std::size_t>(cell(row->x, 0) + scene.cells[0] * cell(row->y, 1))];
+  }
+  return fewest ? *std::ranges::min_element(count) : *std::ranges::max_element(count);
+}
+
 // ---- motion where there should be none
 
 /// Largest root mean square velocity of the particles between two fractions of the history [m/s].
@@ -355,6 +374,10 @@ const std::vector<Entry> entries = {
      [](const Quantity& q, const RunData& r) { return velocity_error(r, q.time, Location::Grid); }},
     {"particle-error", "1", true, false,
      [](const Quantity& q, const RunData& r) { return velocity_error(r, q.time, Location::Particles); }},
+    {"fewest-in-a-cell", "particles", true, false,
+     [](const Quantity& q, const RunData& r) { return in_a_cell(r, q.time, true); }},
+    {"most-in-a-cell", "particles", true, false,
+     [](const Quantity& q, const RunData& r) { return in_a_cell(r, q.time, false); }},
     {"front", "m", true, false, [](const Quantity& q, const RunData& r) { return front(r, q.time); }},
     {"front-slope", "1", false, false,
      [](const Quantity&, const RunData& r) { return front_slope(r) / r.plan->scene.flow->velocity_scale(); }},
@@ -414,7 +437,9 @@ Record record_of(const std::string& quantity) {
   };
   if (quantity.starts_with("shear-rate") || quantity == "viscosity-ratio") return Record::Shear;
   if (one_of({"pressure-error", "density-error"})) return Record::State;
-  if (one_of({"grid-error", "particle-error", "path-error", "final-velocity"})) return Record::Profile;
+  if (one_of({"grid-error", "particle-error", "path-error", "final-velocity", "fewest-in-a-cell",
+              "most-in-a-cell"}))
+    return Record::Profile;
   return Record::History;
 }
 

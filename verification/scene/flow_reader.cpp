@@ -170,8 +170,8 @@ FlowPointer read_cavity(TomlTable& table, const FluidConfig& fluid) {
   if (!fluid.solver.pressure && !fluid.incompressible)
     table.fail("flow",
                "a cavity needs fluid.pressure = true or \"incompressible\": pressure balances its advection");
-  LidDrivenCavityParameters p{table.positive("side"), table.positive("lid_velocity"),
-                              newtonian_viscosity(table, fluid), fluid.solver};
+  LidDrivenCavityParameters p{table.positive("side"), table.positive("lid_velocity"), fluid.curve,
+                              fluid.solver};
   if (!fluid.incompressible && p.lid_velocity >= 0.5 * p.fluid.sound_speed())
     table.fail("lid_velocity",
                "must be below half the speed of sound sqrt(7 K/rho0): the tables are of incompressible flow");

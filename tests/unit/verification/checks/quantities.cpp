@@ -35,3 +35,21 @@ TEST_CASE("errors as quantities are those of their time and place, NaN where the
   CHECK(needs_time("grid-error"));
   CHECK_FALSE(needs_time("energy-drift"));
 }
+
+TEST_CASE("the fewest and the most particles of a cell, NaN without particles or with one that is nowhere") {
+  PlannedRun plan;
+  plan.scene.scene.size = {2, 1};
+  plan.scene.scene.cells = {2, 1};
+  RunData run;
+  run.plan = &plan;
+  const double nan = std::nan("");
+  for (const double x : {0.1, 0.9, 1.5, 2.0})  // the last stands on the wall
+    run.profile.push_back({0.5, "particles", x, 0.5, 0, 0, nan, nan});
+  run.profile.push_back({0.5, "particles", 0.2, 0.2, 0, 0, nan, nan});
+  run.profile.push_back({0.5, "grid", 0.2, 0.2, 0, 0, nan, nan});
+  CHECK(evaluate({"fewest-in-a-cell", 0.5}, run) == 2);
+  CHECK(evaluate({"most-in-a-cell", 0.5}, run) == 3);
+  CHECK(std::isnan(evaluate({"fewest-in-a-cell", 0.25}, run)));
+  run.profile.front().x = nan;
+  CHECK(std::isnan(evaluate({"most-in-a-cell", 0.5}, run)));
+}

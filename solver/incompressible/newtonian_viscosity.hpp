@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <map>
+#include <memory>
+
+#include "solver/incompressible/viscosity.hpp"
+
+namespace mpm::incompressible {
+
+/// A constant viscosity: N(w) = nu Z^T (K Z w - walls), whose matrices are factorised once a run.
+class NewtonianViscosity final : public Viscosity {
+ public:
+  /// `nu`: kinematic viscosity [m2/s].
+  NewtonianViscosity(const Scene& scene, const VelocitySpace& space, const SparseMatrix& basis,
+                     const SparseMatrix& mass, double nu)
+      : nu_(nu),
+        basis_(basis),
+        mass_(mass),
+        form_(space, scene),
+        matrix_((basis.transpose() * form_.matrix() * basis).pruned()) {}
+
+  [[nodiscard]] VectorXd force(const VectorXd& w, double t) const override {
+    return nu_ * (matrix_ * w - basis_.transpose() * form_.wall_load(t));
+  }
+
+  [[nodiscard]] Solution solved(double a, double t, const VectorXd& load, const VectorXd&) override {
+    constexpr std::size_t most = 6;  // steps of a run differ where they end on an output
+    if (factors_.size() > most && !factors_.contains(a)) factors_.clear();
+    std::unique_ptr<Factor>& factor = factors_[a];
+    if (!factor) factor = std::make_unique<Factor>(mass_ + (a * nu_) * matrix_);
+    return {factor->solve(load + (a * nu_) * (basis_.transpose() * form_.wall_load(t))), true};
+  }
+
+ private:
+  using Factor = Eigen::SimplicialLLT<SparseMatrix>;
+
+  double nu_;
+  const SparseMatrix &basis_, &mass_;
+  ViscousForm form_;
+  SparseMatrix matrix_;
+  std::map<double, std::unique_ptr<Factor>> factors_;  // by a
+};
+
+}  // namespace mpm::incompressible
