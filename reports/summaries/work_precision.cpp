@@ -74,7 +74,8 @@ std::vector<CostPoint> best_front(std::vector<CostPoint> points, bool by_wall) {
 
 std::string scheme_of(const RunRecord& run) {
   if (run.basis == foreign_scheme) return run.method;
-  return fmt::format("{}, {}, {}{}", run.basis, run.transfer, run.stepping,
+  const std::string method = run.method.empty() || run.method == "MPM" ? "" : run.method + ": ";
+  return fmt::format("{}{}, {}, {}{}", method, run.basis, run.transfer, run.stepping,
                      run.reset == "never" ? "" : ", reset " + run.reset);
 }
 

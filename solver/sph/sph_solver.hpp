@@ -63,7 +63,7 @@ class SphSolver final : public Simulation {
       fastest = std::max(fastest, velocity_[p].squaredNorm());
     }
     impulse_ += 0.5 * dt * force_;
-    judge();
+    judge(dt * std::sqrt(fastest));
     if (breakdown_) return;
     moved_ += dt * std::sqrt(fastest);
     if (2 * moved_ >= skin_) find_neighbours();
@@ -323,7 +323,8 @@ class SphSolver final : public Simulation {
     }
   }
 
-  void judge() {
+  /// A step longer than the box leaves places that no list of neighbours can be made of.
+  void judge(double longest_move) {
     double energy = 0;
     bool inside = true, dense = true;
     for (std::size_t p = 0; p < size(); ++p) {
@@ -335,6 +336,8 @@ class SphSolver final : public Simulation {
     }
     if (!std::isfinite(energy))
       breakdown_ = "velocity is not finite";
+    else if (longest_move > scene_.size.minCoeff())
+      breakdown_ = "a particle crossed the domain in one step";
     else if (!inside)
       breakdown_ = "a particle left the domain";
     else if (!dense)

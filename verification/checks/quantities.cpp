@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "reports/summaries/work_precision.hpp"
 #include "verification/checks/oscillation.hpp"
 #include "verification/runs/measures.hpp"
 
@@ -330,6 +331,12 @@ double plug_height_error(const RunData& run, double t) {
   return rates.empty() ? nan : height / (plug->second - plug->first) - 1;
 }
 
+/// Work that no clock measures: the same on every machine.
+double particle_steps(const RunData& run) {
+  const double count = reports::particle_steps_of(run.record);
+  return run.completed() && count > 0 ? count : nan;
+}
+
 struct Entry {
   const char *name, *unit;
   bool time, place;
@@ -345,6 +352,8 @@ const std::vector<Entry> entries = {
      [](const Quantity&, const RunData& r) {
        return r.completed() && !r.probe.empty() ? r.probe.back() : nan;
      }},
+    {"particle-steps", "1", false, false,
+     [](const Quantity&, const RunData& r) { return particle_steps(r); }},
     {"energy-error", "1", false, false, [](const Quantity&, const RunData& r) { return energy_error(r); }},
     {"velocity", "m/s", true, false,
      [](const Quantity& q, const RunData& r) { return interpolated(r.history, q.time); }},
@@ -438,7 +447,7 @@ Record record_of(const std::string& quantity) {
   if (quantity.starts_with("shear-rate") || quantity == "viscosity-ratio") return Record::Shear;
   if (one_of({"pressure-error", "density-error"})) return Record::State;
   if (one_of({"grid-error", "particle-error", "path-error", "final-velocity", "fewest-in-a-cell",
-              "most-in-a-cell"}))
+              "most-in-a-cell", "particle-steps"}))
     return Record::Profile;
   return Record::History;
 }

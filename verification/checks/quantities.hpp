@@ -17,6 +17,7 @@ struct Quantity {
 ///
 /// - settling-time [s]: first time after which the probe stays within 1 % of its steady velocity (t99)
 /// - final-velocity [m/s]: at the probe at the end of the run
+/// - particle-steps [1]: particles times steps, what a run costs on any machine
 /// - velocity [m/s]: at the probe at a time
 /// - shear-rate [1/s], viscosity-ratio [1]: at a time, in the cell at a place
 /// - shear-rate-rise [1]: smallest increase from cell to cell, resting plate to moving plate, over the

@@ -181,3 +181,11 @@ TEST_CASE("SPH's fitted field is exact for quadratic motion, and refuses walls t
   CHECK((simulation->grid_gradient({point}, 0).front() - gradient).norm() < 1e-11);
   CHECK_THROWS_AS(make_sph_solver(channel(3, 4, 0), with_sph(), 1), SceneError);
 }
+
+TEST_CASE("SPH that blows up along a periodic axis says so", "[sph]") {
+  Scene scene = box(16, 0, 1e-3);
+  scene.initial_velocity = [](const Vec2&) { return Vec2(1e30, 0); };
+  const auto simulation = make_sph_solver(scene, with_sph(), 1);
+  simulation->advance(0, 1.0);
+  REQUIRE(simulation->breakdown() == "a particle crossed the domain in one step");
+}
