@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "reports/files/atomic_file.hpp"
@@ -10,7 +11,6 @@
 #include "reports/process/child.hpp"
 #include "reports/records/result_files.hpp"
 #include "verification/runs/interruption.hpp"
-#include "verification/suite/shown_failures.hpp"
 
 namespace verification {
 namespace {
@@ -89,8 +89,6 @@ ControlOutcome run_control(const Study& study, const fs::path& out) {
   const reports::ChildEnd end = reports::run_child(command);
   throw_if_interrupted();
 
-  ControlOutcome outcome;
-  outcome.wall_s = end.seconds;
   reports::Results results;
   std::vector<Shown> shown;
   std::string trouble;
@@ -104,10 +102,18 @@ ControlOutcome run_control(const Study& study, const fs::path& out) {
     for (const char* where : {"the console", "junit.xml", "summary.md", "report.md", "report.html"})
       shown.push_back({where, nan, nan});
   }
+  ControlOutcome outcome =
+      judged_control(study, end.well() || end.exit_code > 0 ? end.exit_code : nan, results, shown, trouble);
+  outcome.wall_s = end.seconds;
+  return outcome;
+}
 
+ControlOutcome judged_control(const Study& study, double exit_code, const reports::Results& results,
+                              const std::vector<Shown>& shown, const std::string& trouble) {
+  const ControlSpec& control = *study.control;
+  ControlOutcome outcome;
   auto& checks = outcome.checks;
-  checks.push_back(check_of(study, "exit code", end.well() || end.exit_code > 0 ? end.exit_code : nan,
-                            control.exit_code, "1",
+  checks.push_back(check_of(study, "exit code", exit_code, control.exit_code, "1",
                             "0 all checks pass, 1 a check failed, 3 a solver did" + trouble));
   for (const ControlSpec::MustFail& must : control.must_fail)
     checks.push_back(check_of(
@@ -136,8 +142,12 @@ ControlOutcome run_control(const Study& study, const fs::path& out) {
                             "in claims.csv, report.md and report.html alike" + trouble));
 
   const bool seen = std::ranges::none_of(checks, is_red);
-  outcome.record = {study.name,    control.planted, demand(control),
-                    said(results), end.exit_code,   "controls/" + study.name,
+  outcome.record = {study.name,
+                    control.planted,
+                    demand(control),
+                    said(results),
+                    std::isnan(exit_code) ? -1 : std::lround(exit_code),
+                    "controls/" + study.name,
                     seen};
   return outcome;
 }

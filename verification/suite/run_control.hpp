@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "verification/runs/run_data.hpp"
+#include "verification/suite/shown_failures.hpp"
 
 namespace verification {
 
@@ -19,5 +20,10 @@ struct ControlOutcome {
 /// what the control demands. Nothing of it comes from a cache. Throws Interrupted, and reports::IoError where
 /// `out` cannot be written.
 ControlOutcome run_control(const Study& study, const std::filesystem::path& out);
+
+/// The same of what is there: how the program ended (NaN: not by itself), its tables, and what its pages
+/// show. `trouble` joins every reason.
+ControlOutcome judged_control(const Study& study, double exit_code, const reports::Results& results,
+                              const std::vector<Shown>& shown, const std::string& trouble);
 
 }  // namespace verification

@@ -1,7 +1,7 @@
 # A profile whose error is made, not computed: settled Couette flow plus
 #   u: plate (a h^p + floor) sqrt(1 + h) sin(pi y / H),  v: plate across sin(pi y / H),  h in units of the gap,
 # so that every norm, order and uncertainty is known in closed form. `bump` multiplies the error of the grid of that many
-# cells. With history=1 it delivers a history too, whose mass grows by `mass` and whose momentum across the flow by
+# cells by `times` (5). With history=1 it delivers a history too, whose mass grows by `mass` and whose momentum across the flow by
 # `momentum` (in units of mass times plate velocity) to the end.
 #   awk -v n=CELLS -v out=DIRECTORY -v a=1 -v p=2 -f ladder.awk
 BEGIN {
@@ -10,7 +10,7 @@ BEGIN {
   if (p == "") p = 2
   error = a * (1 / n) ^ p + floor
   error *= sqrt((n + 1) / n)  # the mean over n + 1 points is then 1/sqrt(2), on every grid
-  if (n == bump) error *= 5
+  if (n == bump) error *= times ? times : 5
   file = out "/profile.csv"
   print "t,location,x,y,u,v" > file
   for (j = 0; j <= n; ++j) {
