@@ -32,8 +32,14 @@ class WallNodes {
         if (!on_x && !on_y) continue;
         const Edge across_x = i == 0 ? Edge::Left : Edge::Right, across_y = j == 0 ? Edge::Bottom : Edge::Top;
         Node wall{node, on_x ? across_x : across_y, on_y ? across_y : across_x};
-        if (!on_x) wall.drag[0] = drag(scene.side(across_y), length[0][static_cast<std::size_t>(i)]);
-        if (!on_y) wall.drag[1] = drag(scene.side(across_x), length[1][static_cast<std::size_t>(j)]);
+        if (!on_x) {
+          wall.drag[0] = drag(scene.side(across_y), length[0][static_cast<std::size_t>(i)]);
+          wall.pull[0] = scene.side(across_y).traction * length[0][static_cast<std::size_t>(i)];
+        }
+        if (!on_y) {
+          wall.drag[1] = drag(scene.side(across_x), length[1][static_cast<std::size_t>(j)]);
+          wall.pull[1] = scene.side(across_x).traction * length[1][static_cast<std::size_t>(j)];
+        }
         slips_ |= wall.slips(0) || wall.slips(1);
         nodes_.push_back(wall);
       }
@@ -48,6 +54,8 @@ class WallNodes {
     /// Navier's slip times the node's part of the wall. Infinite where the wall prescribes the component.
     std::array<double, 2> drag{std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::infinity()};
+
+    std::array<double, 2> pull{0, 0};  ///< force of a traction along x, y per unit depth [N/m]
 
     [[nodiscard]] bool slips(std::size_t axis) const { return std::isfinite(drag[axis]); }
   };
@@ -72,8 +80,8 @@ class WallNodes {
            [&](const Node& n) -> Vec2 { return (velocity_of(n, t + dt) - velocity_of(n, t)) / dt; });
   }
 
-  /// Adds to the nodal acceleration what walls that let the fluid slip do to it over dt, by backward Euler:
-  /// the drag on a node of little mass would be stiff.
+  /// Adds to the nodal acceleration what walls that let the fluid slip do to it over dt: the pull of a
+  /// traction, and drag, by backward Euler: the drag on a node of little mass would be stiff.
   void add_drag(Grid& grid, double t, double dt) const {
     if (!slips_) return;
     for (const Node& n : nodes_)
@@ -81,6 +89,7 @@ class WallNodes {
         if (!n.slips(c) || !(grid.mass[n.index] > 0)) continue;
         const auto axis = static_cast<Eigen::Index>(c);
         double& a = grid.acceleration[n.index][axis];
+        a += n.pull[c] / grid.mass[n.index];
         const double v = grid.velocity[n.index][axis] + dt * a;
         a += slip_change(v, velocity_of(n, t + dt)[axis], dt * n.drag[c] / grid.mass[n.index]) / dt;
       }

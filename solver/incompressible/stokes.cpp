@@ -14,6 +14,26 @@ VectorXd uniform_load(const VelocitySpace& space, int component) {
   });
 }
 
+/// What sides that pull along themselves give, per density: integral of N_i times the traction [m3/s2].
+VectorXd traction_load(const VelocitySpace& space, const Scene& scene) {
+  VelocityField sum{MatrixXd::Zero(space.axis(0).functions(0), space.axis(1).functions(1)),
+                    MatrixXd::Zero(space.axis(0).functions(1), space.axis(1).functions(0))};
+  for (const int component : {0, 1}) {
+    const SplineAxis &along = space.axis(component), &across = space.axis(1 - component);
+    for (const int end : {0, 1}) {
+      const Side& side = scene.sides[static_cast<std::size_t>(2 * (1 - component) + end)];
+      if (side.traction == 0) continue;
+      const MatrixXd load =
+          side.traction / scene.fluid.density * along.integrals(0) * across.end_values(end).transpose();
+      if (component == 0)
+        sum.u += load;
+      else
+        sum.v += load.transpose();
+    }
+  }
+  return space.folded(sum);
+}
+
 }  // namespace
 
 Stokes::Stokes(const Scene& scene, const VelocitySpace& space, const ExactMass& mass)
@@ -24,6 +44,7 @@ Stokes::Stokes(const Scene& scene, const VelocitySpace& space, const ExactMass& 
       reduced_mass_((basis_.transpose() * mass.matrix() * basis_).pruned()),
       viscosity_(make_viscosity(scene, space, basis_, reduced_mass_)),
       last_(VectorXd::Zero(basis_.cols())),
+      traction_(traction_load(space, scene)),
       uniform_{uniform_load(space, 0), uniform_load(space, 1)} {
   mass_factor_.compute(reduced_mass_);
   if (mass_factor_.info() != Eigen::Success)
@@ -38,7 +59,7 @@ VectorXd Stokes::solenoidal_part(const VectorXd& velocity) const {
 }
 
 VectorXd Stokes::forces(double t) const {
-  VectorXd sum = VectorXd::Zero(space_.size());
+  VectorXd sum = traction_;
   if (scene_.body_acceleration) {
     const Vec2 b = scene_.body_acceleration(t);
     sum += b.x() * uniform_[0] + b.y() * uniform_[1];

@@ -43,6 +43,7 @@ class Stokes {
   Factor mass_factor_;
   std::unique_ptr<Viscosity> viscosity_;
   VectorXd last_;                                // the coordinates of the last solution
+  VectorXd traction_;                            // of sides that pull, which stays
   std::array<VectorXd, 2> uniform_;              // unit velocity along x, y: integrals over its unknowns [m2]
   std::array<VectorXd, 2> uniform_coordinates_;  // w of that velocity, where the direction is periodic
 };

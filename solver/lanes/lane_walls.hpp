@@ -37,6 +37,7 @@ class LaneWalls {
                           k != i || l != j,
                           {from[along], from[across]},
                           {wall->drag[along], wall->drag[across]},
+                          {wall->pull[along], wall->pull[across]},
                           wall->slips(0) || wall->slips(1)});
       }
     }
@@ -91,9 +92,10 @@ class LaneWalls {
       for (int c : {0, 1}) {
         if (node.prescribes(c)) continue;
         double& v = fields.velocity[c][node.index];
-        const double change =
-            WallNodes::slip_change(v, wall_at_end[node.from[c]][static_cast<std::size_t>(c)],
-                                   dt * node.drag[c] * fields.inverse_mass[node.index]);
+        const double pulled = dt * node.pull[c] * fields.inverse_mass[node.index];
+        const double change = pulled + WallNodes::slip_change(
+                                           v + pulled, wall_at_end[node.from[c]][static_cast<std::size_t>(c)],
+                                           dt * node.drag[c] * fields.inverse_mass[node.index]);
         v += change;
         fields.acceleration[c][node.index] += change / dt;
         impulse.of[c] += counted_mass(node, fields) * change;
@@ -122,6 +124,7 @@ class LaneWalls {
     bool is_image;        ///< of a periodic node that stands in the list, too
     std::size_t from[2];  ///< the sides that give its two components
     double drag[2];       ///< WallNodes::Node
+    double pull[2];       ///< the same
     bool slips;           ///< along one of them
 
     [[nodiscard]] bool prescribes(int c) const { return !slips || !std::isfinite(drag[c]); }

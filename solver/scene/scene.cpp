@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 namespace mpm {
@@ -29,6 +30,12 @@ Seeding::Rule seeding_named(const std::string& text) {
 
 Side Side::wall(const Vec2& v, double slip_length) {
   return {false, [v](double) { return v; }, [](double) -> Vec2 { return Vec2::Zero(); }, slip_length};
+}
+
+Side Side::pulled(double traction) {
+  Side side = wall(Vec2::Zero(), std::numeric_limits<double>::infinity());
+  side.traction = traction;
+  return side;
 }
 
 double Fluid::sound_speed() const {
@@ -63,6 +70,8 @@ void Scene::validate() const {
     require(s.slip_length == 0 || !std::isfinite(s.slip_length) ||
                 std::holds_alternative<Newtonian>(fluid.rheology),
             "a wall with a finite slip length needs a Newtonian fluid; let others stick or slip freely");
+    require(s.traction == 0 || (std::isfinite(s.traction) && std::isinf(s.slip_length)),
+            "a traction must be finite, and pulls at a side on which the fluid slips freely");
   }
   require(!free_surface || free_surface->is_fluid, "a free surface needs the region that the fluid fills");
   require(!free_surface || fluid.pressure, "a fluid with a free surface needs its pressure");

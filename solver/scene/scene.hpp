@@ -27,10 +27,15 @@ struct Side {
   /// Navier's slip length b [m]: along the wall the fluid feels mu (V - v)/b. 0: it sticks; infinite: it
   /// slips freely.
   double slip_length = 0;
+  /// Stress by which a side without friction pulls the fluid along itself [Pa]: the traction of Zhou & Sun
+  /// 2019, Eq. 17, whose nodal force is the integral of N_i times it.
+  double traction = 0;
 
   static Side joined() { return {}; }
   /// A wall that has moved with constant velocity [m/s] since t = 0.
   static Side wall(const Vec2& v, double slip_length = 0);
+  /// A side that nothing passes, and that pulls along itself with a stress [Pa].
+  static Side pulled(double traction);
 };
 
 enum class Edge { Left, Right, Bottom, Top };

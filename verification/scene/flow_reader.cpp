@@ -8,6 +8,7 @@
 #include "verification/flows/box_flow.hpp"
 #include "verification/flows/channel/channel_flow.hpp"
 #include "verification/flows/channel/oscillating_channel_flow.hpp"
+#include "verification/flows/channel/stress_driven_flow.hpp"
 #include "verification/flows/vortices/lid_driven_cavity_flow.hpp"
 #include "verification/flows/vortices/manufactured_flow.hpp"
 #include "verification/flows/vortices/taylor_green_flow.hpp"
@@ -51,6 +52,16 @@ FlowPointer read_channel(TomlTable& table, const FluidConfig& fluid, bool driven
     return std::make_shared<ChannelFlow>(p);
   } catch (const std::invalid_argument& error) {
     table.fail("flow", error.what());
+  }
+}
+
+FlowPointer read_stress_driven(TomlTable& table, const FluidConfig& fluid) {
+  const StressDrivenFlowParameters p{table.positive("height"), read_axis(table, "x"),
+                                     read_nonzero(table, "traction"), fluid};
+  try {
+    return std::make_shared<StressDrivenFlow>(p);
+  } catch (const std::invalid_argument& error) {
+    table.fail("traction", error.what());
   }
 }
 
@@ -290,6 +301,7 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
       {"couette-poiseuille",
        [](TomlTable& t, const FluidConfig& f) { return read_channel(t, f, true, true); }},
       {"cessation", read_cessation},
+      {"stress-driven-couette", read_stress_driven},
       {"acoustic-wave", read_acoustic_wave},
       {"shear-wave", read_shear_wave},
       {"oblique-shear-wave", read_oblique_wave},

@@ -1,0 +1,36 @@
+#include "reference/channel/traction/stress_driven_channel.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/catch.hpp"
+
+using reference::StressDrivenChannel;
+
+TEST_CASE("stress-driven start-up: modes and images are one solution", "[reference]") {
+  const StressDrivenChannel channel(1e-3, 1e-6, 2e-7);
+  for (const double t : {0.02, 0.1, 0.4, 1.0})
+    for (const double y : {0.0, 1e-4, 5e-4, 9e-4, 1e-3})
+      CHECK(std::abs(channel.by_modes(y, t) - channel.by_images(y, t)) < 2e-14 * channel.steady_maximum());
+}
+
+TEST_CASE("stress-driven start-up: the plate holds, the side pulls, the end is linear", "[reference]") {
+  const double height = 1e-3, nu = 1e-6, stress = -3e-7;
+  const StressDrivenChannel channel(height, nu, stress);
+  for (const double t : {1e-3, 0.05, 0.2, 3.0}) {
+    CHECK(channel.velocity(0, t) == 0);
+    CHECK(channel.gradient(height, t) == Approx(stress / nu).epsilon(1e-12));
+    const double e = 1e-7, y = 7e-4;
+    CHECK(channel.gradient(y, t) ==
+          Approx((channel.velocity(y + e, t) - channel.velocity(y - e, t)) / (2 * e)).epsilon(1e-5));
+    // nu u_yy = u_t
+    const double dt = 1e-4 * t, dy = 2e-6;
+    const double bend =
+        (channel.velocity(y + dy, t) - 2 * channel.velocity(y, t) + channel.velocity(y - dy, t)) / (dy * dy);
+    const double rise = (channel.velocity(y, t + dt) - channel.velocity(y, t - dt)) / (2 * dt);
+    CHECK(std::abs(nu * bend - rise) < 1e-3 * std::abs(stress) / height);
+  }
+  CHECK(channel.velocity(0.4e-3, 100) == Approx(stress / nu * 0.4e-3));
+  CHECK(channel.steady_maximum() == Approx(3e-4));
+  CHECK_THROWS_AS(StressDrivenChannel(1e-3, 1e-6, 0), std::invalid_argument);
+}

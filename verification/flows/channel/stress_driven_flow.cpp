@@ -1,0 +1,64 @@
+#include "verification/flows/channel/stress_driven_flow.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "reference/channel/traction/stress_driven_channel.hpp"
+
+namespace verification {
+namespace {
+
+class StressDrivenField final : public ExactField {
+ public:
+  StressDrivenField(int axis, const reference::StressDrivenChannel& channel)
+      : axis_(axis), channel_(channel) {}
+  [[nodiscard]] Vec2 velocity(const Vec2& x, double t, Location) const override {
+    return channel_.velocity(x[1 - axis_], t) * unit(axis_);
+  }
+  [[nodiscard]] std::optional<double> shear_rate(const Vec2& x, double t) const override {
+    return std::abs(channel_.gradient(x[1 - axis_], t));
+  }
+  [[nodiscard]] std::string description() const override { return channel_.description(); }
+
+ private:
+  int axis_;
+  reference::StressDrivenChannel channel_;
+};
+
+}  // namespace
+
+StressDrivenFlow::StressDrivenFlow(const StressDrivenFlowParameters& parameters)
+    : parameters_(parameters),
+      rate_(std::copysign(
+          parameters.fluid.curve.rate(std::abs(parameters.stress) / parameters.fluid.solver.density),
+          parameters.stress)) {}
+
+mpm::Scene StressDrivenFlow::scene(const Discretisation& d) const {
+  const int along = parameters_.axis, across = 1 - along;
+  mpm::Scene scene;
+  scene.size[across] = parameters_.height;
+  scene.size[along] = parameters_.height / d.cells * d.cells_along;
+  scene.cells[static_cast<std::size_t>(across)] = d.cells;
+  scene.cells[static_cast<std::size_t>(along)] = d.cells_along;
+  scene.particles_per_cell[static_cast<std::size_t>(across)] = d.particles_across;
+  scene.particles_per_cell[static_cast<std::size_t>(along)] = d.particles_along;
+  scene.side(across == 1 ? mpm::Edge::Bottom : mpm::Edge::Left) = mpm::Side::wall(Vec2::Zero());
+  scene.side(across == 1 ? mpm::Edge::Top : mpm::Edge::Right) = mpm::Side::pulled(parameters_.stress);
+  scene.fluid = parameters_.fluid.solver;
+  return scene;
+}
+
+std::shared_ptr<const ExactField> StressDrivenFlow::exact(const std::vector<double>&) const {
+  const auto nu = parameters_.fluid.curve.newtonian();
+  if (!nu) return nullptr;
+  return std::make_shared<StressDrivenField>(
+      parameters_.axis, reference::StressDrivenChannel(
+                            parameters_.height, *nu, parameters_.stress / parameters_.fluid.solver.density));
+}
+
+/// At the side that is pulled: nothing else decides its velocity.
+Probe StressDrivenFlow::probe() const {
+  return {parameters_.height * unit(across()), unit(parameters_.axis)};
+}
+
+}  // namespace verification
