@@ -71,14 +71,17 @@ class ShearViscosity final : public Viscosity {
     const auto residual = [&](const VectorXd& x) -> VectorXd { return load - mass_ * x - a * force(x, t); };
     const auto norm = [&](const VectorXd& x) { return std::sqrt(std::max(0.0, x.dot(mass_ * x))); };
     bool fresh = a != factorised_for_;
+    bool of_this_solve = fresh;
     if (fresh) factorise(a, w);
     VectorXd r = residual(w);
     double last_change = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       VectorXd step = factor_.solve(r);
       double change = norm(step);
-      if (!fresh && !(change <= contraction * last_change)) {
+      // A matrix of this solve that contracts at all is cheaper kept than taken anew.
+      if (!fresh && !(change <= (of_this_solve ? slow_contraction : contraction) * last_change)) {
         factorise(a, w);
+        of_this_solve = true;
         step = factor_.solve(r);
         change = norm(step);
       }
@@ -98,6 +101,7 @@ class ShearViscosity final : public Viscosity {
       // A cut step says nothing on how well the matrix contracts: take the present one's next time.
       fresh = fraction < 1;
       if (fresh) factorise(a, w);
+      of_this_solve = of_this_solve || fresh;
       last_change = change;
     }
     return {w, false};
@@ -151,7 +155,7 @@ class ShearViscosity final : public Viscosity {
   static constexpr double penalty = 6;  // times k/h, as ViscousForm
   // Round-off in the residual, amplified by the condition of M + a N, leaves a few 1e-13.
   static constexpr double tolerance = 1e-11;
-  static constexpr double contraction = 0.25;
+  static constexpr double contraction = 0.25, slow_contraction = 0.6;
   static constexpr int most_iterations = 200;
   using Weights = Eigen::Matrix<double, K + 1, 1>;
   using Block = Eigen::Matrix<double, K + 1, K + 1>;
