@@ -75,3 +75,19 @@ TEST_CASE("checks that were to be made and were not fail the study", "[scale]") 
       read_study_text(study_text("T", "C", couette_scene() + error_check, "expected_checks = 3\n")),
       ConfigError);
 }
+
+TEST_CASE("a run that did not complete fails its study, whatever its errors", "[scale]") {
+  const Study study = read_study_text(study_text("T", "C", couette_scene() + error_check));
+  for (const char* status : {"completed", "diverged at t = 1 s: too fast", "failed: no such thing"}) {
+    StudyData data;
+    data.study = &study;
+    RunData run;
+    run.plan = &study.runs.front();
+    run.record.run = run.plan->run;
+    run.record.status = status;
+    data.runs = {run};
+    evaluate_checks(data);
+    REQUIRE(data.checks.back().check == "runs that did not complete");
+    CHECK((data.checks.back().verdict == "pass") == (status == std::string("completed")));
+  }
+}

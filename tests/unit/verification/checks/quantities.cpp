@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "tests/catch.hpp"
+#include "tests/study_text.hpp"
+#include "tests/unit/verification/read_text.hpp"
 
 using namespace verification;
 
@@ -52,4 +54,26 @@ TEST_CASE("the fewest and the most particles of a cell, NaN without particles or
   CHECK(std::isnan(evaluate({"fewest-in-a-cell", 0.25}, run)));
   run.profile.front().x = nan;
   CHECK(std::isnan(evaluate({"most-in-a-cell", 0.5}, run)));
+}
+
+TEST_CASE("the settling time is that of the last time into the band, or the start where it never leaves") {
+  const Study study = read_study_text(
+      study_text("T", "C", couette_scene() + "[[check]]\nkind = \"error\"\nupper = 1\nreason = \"any\"\n"));
+  RunData run;
+  run.plan = &study.runs.front();
+  const double steady = run.plan->scene.flow->steady_probe();
+  const auto settles = [&](const std::vector<double>& off) {
+    run.history.clear();
+    for (std::size_t k = 0; k < off.size(); ++k) {
+      reports::HistoryRow row;
+      row.t = 0.1 * static_cast<double>(k);
+      row.probe = steady * (1 + off[k]);
+      run.history.push_back(row);
+    }
+    return evaluate({"settling-time"}, run);
+  };
+  // One percent is halfway from two percent to none; it has been there before.
+  CHECK(settles({1, 0, 0.02, 0, 0}) == Approx(0.25).epsilon(1e-9));
+  CHECK(settles({0, 0, 0, 0}) == 0);
+  CHECK(std::isnan(settles({0, 0, 0, 0.02})));
 }
