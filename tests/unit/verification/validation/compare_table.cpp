@@ -47,6 +47,9 @@ TEST_CASE("Quantities between samples: cubic, exact for a cubic field", "[valida
   CHECK(of("wall-shear-rate", NAN, NAN) == Approx(0.5).epsilon(1e-13));
   CHECK_THROWS_WITH(of("u", NAN, 1.01), contains("nothing is extrapolated"));
   CHECK_THROWS_WITH(find_validated_quantity("u")->of(run, {2, NAN, 0.5}), contains("no output time"));
+  CHECK_THROWS_WITH(of("u", NAN, -0.01),
+                    contains("y = -0.01 m lies outside of the run's samples (0 to 1 m)"));
+  CHECK_THROWS_WITH(of("v", 1.6, 0.5), contains("x = 1.6 m lies outside of the run's samples (0 to 1.5 m)"));
   CHECK_THROWS_WITH(find_validated_quantity("probe")->of(run, {1, NAN, NAN}), contains("no history"));
   CHECK(find_validated_quantity("front-page") == nullptr);
 }

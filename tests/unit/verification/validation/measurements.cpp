@@ -52,6 +52,20 @@ TEST_CASE("Measurements: a table is read with its header and lines", "[validatio
   CHECK(table.rows[0].shared == 0);
 }
 
+TEST_CASE("Measurements: an uncertainty that all values share is read, and refused where it is negative",
+          "[validation]") {
+  const std::string shared = replaced(good, ",uncertainty,unit", ",uncertainty,shared_uncertainty,unit");
+  const std::string first = replaced(shared, "2e-5,m/s,\n\n", "2e-5,3e-5,m/s,\n\n");
+  const std::string both = replaced(first, "2e-5,m/s,\"", "2e-5,,m/s,\"");
+  const std::string all = replaced(both, "1e-9,m2/s", "1e-9,0,m2/s");
+  const MeasurementTable table = read(all);
+  REQUIRE(table.rows.size() == 3);
+  CHECK(table.rows[0].shared == 3e-5);
+  CHECK(table.rows[1].shared == 0);
+  CHECK_THROWS_WITH(read(replaced(all, "3e-5", "-3e-5")),
+                    contains("data.csv:6: column 'shared_uncertainty': -3e-5 is negative"));
+}
+
 TEST_CASE("Measurements: bad data are refused with file, row and remedy", "[validation]") {
   CHECK_THAT(refusal("2e-5,m/s,\n\n", ",m/s,\n\n"), contains("data.csv:6: column 'uncertainty' is empty"));
   CHECK_THAT(refusal("2e-5,m/s,\n\n", "0,m/s,\n\n"), contains("data.csv:6: column 'uncertainty': 0 is not"));
@@ -66,6 +80,10 @@ TEST_CASE("Measurements: bad data are refused with file, row and remedy", "[vali
   CHECK_THAT(refusal("flow-rate,0.5,,", "flow-rate,0.5,,1"), contains("has no place"));
   CHECK_THAT(refusal("flow-rate,0.5", "flow-rate,"), contains("column 't'"));
   CHECK_THAT(refusal("flow-rate", "flowrate"), contains("choose one of: u, v, flow-rate"));
+  CHECK_THAT(refusal("flow-rate,0.5", "flow-rate,-0.5"), contains("data.csv:9: column 't'"));
+  CHECK_THAT(refusal("1.7e-3", "nan"), contains("data.csv:8: column 'value': 'nan' is not a finite number"));
+  CHECK_THAT(refusal("1.7e-3", "1.7 mm"), contains("data.csv:8: column 'value': '1.7 mm'"));
+  CHECK_THAT(refusal("1.7e-3", ""), contains("data.csv:8: column 'value': ''"));
   CHECK_THAT(refusal("# licence: facts\n", ""), contains("# licence:"));
   CHECK_THROWS_AS(
       read("# source: a\n# obtained: b\n# licence: c\nquantity,t,x,y,value,uncertainty,unit,note\n"),
