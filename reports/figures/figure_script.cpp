@@ -63,6 +63,10 @@ Curve thinned(const Curve& curve, std::size_t count) {
 FigureScript::FigureScript(std::string title, std::string x_label, std::string y_label)
     : title_(std::move(title)), x_label_(std::move(x_label)), y_label_(std::move(y_label)) {}
 
+void FigureScript::x_range(double lower, double upper) {
+  statement(fmt::format("set xrange [{:.6g}:{:.6g}]", lower, upper));
+}
+
 void FigureScript::y_range(double lower, double upper) {
   statement(fmt::format("set yrange [{:.6g}:{:.6g}]", lower, upper));
 }
@@ -134,6 +138,9 @@ void FigureScript::band(const Curve& lower, const Curve& upper, const std::strin
 }
 
 void FigureScript::boxes(const Curve& tops, const std::string& colour, const std::string& legend) {
+  // A width of its own: gnuplot takes it from the distance of neighbours, and draws nothing for a box alone.
+  const std::string width = "set boxwidth 0.8 absolute";
+  if (statements_.find(width) == std::string::npos) statement(width);
   add_plot(add_data(tops), fmt::format("with boxes fs solid 0.8 noborder lc rgb '{}'", colour), legend);
 }
 

@@ -41,7 +41,8 @@ class FigureScript {
   void logarithmic_y() { log_y_ = true; }
   /// A statement of gnuplot, taken as it is: no user's text in here.
   void statement(const std::string& line) { statements_ += line + "\n"; }
-  /// Fix the y range.
+  /// Fix the range of x or y.
+  void x_range(double lower, double upper);
   void y_range(double lower, double upper);
 
   void line(const Curve& curve, const std::string& colour, const std::string& legend, double width = 2,
@@ -54,7 +55,7 @@ class FigureScript {
   void error_bars(const std::vector<ErrorBar>& bars, const std::string& colour, const std::string& legend);
   /// The area between two curves over the same places, pale.
   void band(const Curve& lower, const Curve& upper, const std::string& colour);
-  /// Bars from zero, as wide as the whole numbers lie apart.
+  /// Bars from zero over whole numbers, nearly as wide as these lie apart.
   void boxes(const Curve& tops, const std::string& colour, const std::string& legend);
   /// A legend entry without data.
   void legend_line(const std::string& colour, const std::string& legend, double width = 2,

@@ -42,7 +42,8 @@ std::vector<std::string> variants_of(const std::vector<const ValidationRecord*>&
 }
 
 const char* const point_caption =
-    "Black: measured, bars of k u_D. Colour: simulated, band of k sqrt(u_num^2 + u_input^2).";
+    "Black: measured, bars of k u_D. Colour: simulated, band (bar where there is one value) of "
+    "k sqrt(u_num^2 + u_input^2).";
 
 }  // namespace
 
@@ -70,8 +71,9 @@ Figure validation_figure(const FigureRecord& record, const Results& results) {
     script.band(lower, upper, curve_colour(v));
     if (simulated.size() > 1)
       script.line(simulated, curve_colour(v), name);
-    else
-      script.points(simulated, curve_colour(v), curve_mark(v).filled, name);
+    else  // a band over one place has no area
+      script.error_bars({{simulated[0].first, simulated[0].second, upper[0].second - simulated[0].second}},
+                        curve_colour(v), name);
     if (v > 0) continue;  // every variant has the same data beside it
     std::vector<ErrorBar> bars;
     for (const ValidationRecord* p : mine)
@@ -102,6 +104,7 @@ Figure validation_parts_figure(const FigureRecord& record, const Results& result
   }
   // From the whole down, so that each part is drawn over what it is below.
   for (std::size_t k = 3; k-- > 0;) script.boxes(tops[k], curve_colour(k), names[k]);
+  script.x_range(0.4, static_cast<double>(points.size()) + 0.6);
   script.y_range(0, 100);
   figure.script = script.text(record.figure);
   figure.caption = "The variance of E, divided among its three independent parts.";
