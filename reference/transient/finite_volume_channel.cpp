@@ -88,12 +88,23 @@ class Level {
     return rate;
   }
 
+  /// Where the fluid is at rest as a whole and its viscosity there infinite (n < 1), dw/dtau is zero at every
+  /// face: the stress is then known up to a constant only, and Newton's matrix singular. An explicit step
+  /// shears the faces at the plates, which is enough, as a first guess.
+  void leave_rest(double h) {
+    const auto still = [](double w) { return w == 0.0; };
+    if (!stress_unknown_ || !std::all_of(w_.begin(), w_.end(), still)) return;
+    const std::vector<double> rate = rate_of_change(w_);
+    for (std::size_t j = 0; j < w_.size(); ++j) w_[j] = h * rate[j];
+  }
+
   /// Solves w = known + h dw/dt for w, starting from the present one: Newton on the stress or on w, Thomas'
   /// algorithm.
   void implicit(const std::vector<double>& known, double h) {
     const std::size_t n = w_.size();
     const FlowCurve& curve = problem_.curve;
     std::vector<double> tau(n), upper(n), right(n);
+    leave_rest(h);
     for (std::size_t j = 0; j < n; ++j) tau[j] = curve.stress(w_[j]);
     double previous = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < 200; ++iteration) {

@@ -52,6 +52,16 @@ TEST_CASE("finite volume channel: within its own error of the Newtonian series, 
   }
 }
 
+TEST_CASE("finite volume channel: a fluid of infinite viscosity at rest starts to flow") {
+  // At rest dw/dtau = 0 everywhere, and Newton's matrix for the stress is singular there.
+  const ChannelProblem problem{kHeight, kForce, 0.0, PowerLawCurve{1e-6, 0.6}, {0.02}};
+  const auto reference = make_channel_solution(problem);
+  const FiniteVolumeProfile fv = finite_volume_channel(problem, 0.02, 32, 32);
+  CHECK(compare(fv, *reference, 0.02).velocity <
+        fv.velocity_error + reference->stated_error() * reference->steady_maximum());
+  CHECK(fv.velocity_error < 1e-3 * reference->steady_maximum());
+}
+
 TEST_CASE("finite volume channel: agrees with the transient reference within its own error") {
   struct Case {
     FlowCurve curve;
