@@ -54,8 +54,8 @@ Model read_carreau_yasuda(TomlTable& table, double nu, double density, int) {
 /// of a Bingham fluid it speeds the plug up by tau_y/(m F) = z_0 w/cells^2 (z_0: half the plug's height, w:
 /// the shear rate at the wall). The linear scheme's mesh slows the flow down, on the average over the gap, by
 /// about h^2 F/(24 nu) = w H^2/(24 cells^2 (H/2 - z_0)): the first is 24 z_0 (H/2 - z_0)/H^2 <= 1.5 times
-/// that. The plug alone is slowed down by another multiple of h^2, so that this says that both fall as h^2,
-/// neither being refined in vain, and not that they cancel.
+/// that. The plug itself loses up to F h^2/(8 nu), where its edge halves a cell, and gains in the layer there
+/// (docs/yield-stress.md): both fall as h^2, so that neither is refined in vain, but they do not cancel.
 double read_regularisation(TomlTable& table, int cells, double largest) {
   if (table.has("regularisation")) return table.positive("regularisation");
   return static_cast<double>(cells) * cells / largest;
