@@ -1,10 +1,10 @@
 # Completion of mpm-verify for bash: verbs, options of each verb, studies by name.
 _mpm_verify() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} verb=${COMP_WORDS[1]}
-  local verbs="list explain run compare report validate solve reference schema plan judge collect submit"
+  local verbs="list explain run compare report validate solve reference schema plan judge collect submit new"
   COMPREPLY=()
   case $before in
-    --suite) mapfile -t COMPREPLY < <(compgen -W "quick full deep" -- "$word"); return ;;
+    --suite) mapfile -t COMPREPLY < <(compgen -W "quick full deep peers" -- "$word"); return ;;
     --isa) mapfile -t COMPREPLY < <(compgen -W "baseline avx2 avx512" -- "$word"); return ;;
     --out | --studies) mapfile -t COMPREPLY < <(compgen -d -- "$word"); return ;;
   esac
@@ -19,6 +19,7 @@ _mpm_verify() {
   case $verb in
     run | explain | plan | submit)
       mapfile -t COMPREPLY < <(compgen -W "$("$1" list --names 2> /dev/null)" -- "$word"; compgen -f -X '!*.toml' -- "$word") ;;
+    new) mapfile -t COMPREPLY < <(compgen -W "study solver" -- "$word") ;;
     report | compare | judge | collect) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
     solve | reference) mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word") ;;
   esac

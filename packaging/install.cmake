@@ -2,7 +2,8 @@
 include(GNUInstallDirs)
 
 install(TARGETS mpm-verify RUNTIME)
-install(DIRECTORY verification/studies verification/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/mpm-verify)
+install(DIRECTORY verification/studies verification/scenes verification/adapters verification/templates
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/mpm-verify USE_SOURCE_PERMISSIONS)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs)
 install(FILES README.md CONTRIBUTING.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)

@@ -39,7 +39,7 @@ int dispatch(int argc, char** argv) {
       "Directory of the studies (default: $MPM_STUDIES, else beside the program, else where it was built)";
   ListOptions list;
   auto* list_app = app.add_subcommand("list", "Studies, what each claims, and what it costs");
-  list_app->add_option("--suite", list.suite, "quick, full or deep (default: all)");
+  list_app->add_option("--suite", list.suite, "quick, full, deep or peers (default: deep)");
   list_app->add_flag("--names", list.names, "Names alone, one a line");
   list_app->add_option("--studies", studies, studies_help);
 
@@ -61,7 +61,7 @@ int dispatch(int argc, char** argv) {
   auto* run_app = app.add_subcommand("run", "Run studies and judge them");
   run_app->add_option("STUDY", run.names,
                       "Names of studies or paths of study files (default: the whole suite)");
-  run_app->add_option("--suite", run.suite, "quick, full or deep (default: full)");
+  run_app->add_option("--suite", run.suite, "quick, full, deep or peers (default: full)");
   run_app->add_option("--out", run.out, "Directory of the results")->capture_default_str();
   run_app->add_option("--jobs", run.jobs, "Runs at the same time (default: one a core)")
       ->check(CLI::Range(1, 1024));

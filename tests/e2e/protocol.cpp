@@ -161,3 +161,25 @@ TEST_CASE("keys that only our solver needs are not asked of others; what they as
   CHECK_THAT(bench.run(study_with("inputs = [\"gone\"]\n")).output, contains("gone' is not there"));
   CHECK_THAT(bench.run(study_with("results = \"theirs/{run}\"\n")).output, contains("cannot stand beside"));
 }
+
+TEST_CASE("a new study and a new solver in each language run as they are") {
+  const ScratchDirectory scratch;
+  const std::string here = "cd " + scratch.path().string() + " && ", quiet = " > /dev/null 2>&1";
+  const std::string program = "MPM_GNUPLOT=none " MPM_VERIFY_PROGRAM " ";
+  const auto runs = [&](const std::string& command) {
+    return std::system((here + command + quiet).c_str()) == 0;
+  };
+  CHECK(runs(program + "new study mine && " + program + "run mine.toml --no-cache --out results"));
+  CHECK_FALSE(runs(program + "new study mine"));  // it is there
+  for (const auto& [language, needs, build] :
+       {std::tuple{"sh", "true", "true"},
+        {"python", "python3 -c 'import tomllib'", "true"},
+        {"cpp", "g++ --version", "g++ -std=c++17 -O2 -o solver solver.cpp"}}) {
+    INFO(language);
+    if (!runs(needs)) continue;  // not on every machine
+    const std::string name = std::string("by-") + language;
+    CHECK(runs(program + "new solver " + name + " --language " + language + " && cd " + name + " && " +
+               build + " && " + program + "run " + name + ".toml --no-cache --out results"));
+    CHECK_THAT(content_of(scratch / name / "results/runs.csv"), contains("," + name + " 0.1,"));
+  }
+}

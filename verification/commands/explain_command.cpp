@@ -20,6 +20,10 @@ std::string compared_with(const Study& study) {
       return "the exact solution of its own discrete scheme";
     case Comparison::SteadyNodes:
       return "the scheme's own steady nodes";
+    case Comparison::Table:
+      return study.table->description();
+    case Comparison::Finest:
+      return "its own finest level";
     default:
       return "the exact or reference solution of its flow";
   }

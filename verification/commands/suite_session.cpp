@@ -103,7 +103,7 @@ std::vector<Study> chosen_studies(const std::filesystem::path& studies, const st
     Study study = name.ends_with(".toml") ? read_study(name) : read_study_named(studies, name);
     if (std::ranges::any_of(chosen, [&](const Study& other) { return other.name == study.name; }))
       throw ConfigError("study '" + study.name + "' is named twice");
-    if (restrict_to(study, suite)) chosen.push_back(std::move(study));
+    if (suite_name.empty() || restrict_to(study, suite)) chosen.push_back(std::move(study));
   }
   for (Study& study : chosen) {
     if (controls == Controls::Plain) study.control.reset();

@@ -117,8 +117,8 @@ void read_scoreboard(TomlTable& root, Study& study) {
 }
 
 bool restrict_to(Study& study, Suite suite) {
-  if (study.suite <= suite) return true;
-  if (!study.scoreboard) return false;
+  if (holds(suite, study.suite)) return true;
+  if (!study.scoreboard || suite == Suite::Peers) return false;
   // Suites nest: what runs in quick runs in full.
   std::vector<std::string> kept = study.scoreboard->in_quick;
   if (suite == Suite::Full)

@@ -10,6 +10,7 @@
 #include "verification/checks/check_reader.hpp"
 #include "verification/checks/expected_checks.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/reading/comparison_reader.hpp"
 #include "verification/reading/control_reader.hpp"
 #include "verification/reading/figure_reader.hpp"
 #include "verification/reading/scoreboard_reader.hpp"
@@ -208,15 +209,6 @@ void read_variants(Study& study, TomlTable& root, const TomlTable& base, const s
   }
 }
 
-Comparison read_comparison(TomlTable& root) {
-  const std::string comparison = root.text("compare_with", "exact");
-  if (comparison == "exact") return Comparison::Exact;
-  if (comparison == "discrete") return Comparison::Discrete;
-  if (comparison == "steady-nodes") return Comparison::SteadyNodes;
-  if (comparison == "ideal") return Comparison::Ideal;
-  root.fail("compare_with", "must be \"exact\", \"discrete\", \"steady-nodes\" or \"ideal\"");
-}
-
 ClaimSpec read_claim(TomlTable& table) {
   ClaimSpec claim{table.text("id"), table.text("source"), table.text("statement"), table.text("verdict"),
                   table.text("note", "")};
@@ -250,42 +242,6 @@ void read_declared_checks(TomlTable& root, Study& study) {
                           declared, *computed));
 }
 
-void require_comparable(const TomlTable& root, const Study& study) {
-  if (study.comparison == Comparison::SteadyNodes)
-    for (const PlannedRun& planned : study.runs)
-      if (!planned.scene.flow->steady_nodes(planned.scene.discretisation))
-        root.fail("compare_with",
-                  "\"steady-nodes\" is known for Poiseuille flow only (run " + planned.run + ")");
-
-  if (study.comparison == Comparison::Ideal)
-    for (const PlannedRun& planned : study.runs)
-      if (!planned.scene.flow->ideal())
-        root.fail("compare_with", "\"ideal\" is for driven channels of a fluid with a yield stress (run " +
-                                      planned.run + ")");
-
-  if (study.comparison != Comparison::Discrete) return;
-  for (const PlannedRun& planned : study.runs) {
-    const SceneConfig& scene = planned.scene;
-    const mpm::Scheme& scheme = scene.scheme;
-    const bool papers_scheme =
-        !scene.sph && !scene.incompressible && scheme.basis == mpm::Scheme::Basis::Linear &&
-        scheme.transfer == mpm::Scheme::Transfer::Flip &&
-        (scheme.stepping == mpm::Scheme::Stepping::Usf || scheme.stepping == mpm::Scheme::Stepping::Musl);
-    const mpm::Seeding& seeding = scene.scene.seeding;
-    const bool evenly = seeding.displacement == 0 && seeding.rule[0] == seeding.rule[1];
-    if (!papers_scheme || !evenly || scene.time_step.dt == 0 ||
-        !scene.flow->exact_discrete(scene.discretisation, scene.time_step.dt))
-      root.fail("compare_with",
-                "\"discrete\" is known for linear flip usf and musl channels, even seeding and a fixed dt "
-                "only (run " +
-                    planned.run + ")");
-    for (const double t : scene.outputs)
-      if (std::abs(t / scene.time_step.dt - std::round(t / scene.time_step.dt)) > 1e-6)
-        root.fail("compare_with",
-                  "\"discrete\" needs output times that are multiples of dt (run " + planned.run + ")");
-  }
-}
-
 }  // namespace
 
 Study read_study(const std::filesystem::path& file, const std::string& topic) {
@@ -305,7 +261,7 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
   } catch (const ConfigError& error) {
     root.fail("suite", error.what());
   }
-  study.comparison = read_comparison(root);
+  read_comparison(root, file, study);
   study.ladder = read_ladder(root.table("ladder"), root.has("ladder"), root.has("matrix"));
   study.matrix = root.has("matrix");
   study.repetitions = root.integer("repetitions", 0);
@@ -330,6 +286,7 @@ Study read_study(const std::filesystem::path& file, const std::string& topic) {
   if (study.checks.empty() && !study.validation)
     root.fail("check", "is missing: a study without a check proves nothing; add a [[check]]");
   read_declared_checks(root, study);
+  require_decidable(root, study);
   for (TomlTable& table : root.tables("statement")) study.claims.push_back(read_claim(table));
   require_evidence(root, study);
   for (TomlTable& table : root.tables("figure")) study.figures.push_back(read_figure(table, study));

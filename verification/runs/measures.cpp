@@ -4,10 +4,14 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
 
 #include "verification/convergence/eca_hoekstra.hpp"
 #include "verification/convergence/gci.hpp"
 #include "verification/convergence/norms.hpp"
+#include "verification/flows/grid_of_values.hpp"
 #include "verification/runs/foreign/pairing.hpp"
 
 namespace verification {
@@ -37,6 +41,32 @@ Norms difference_norms(const RunData& a, const RunData& b, double t, Location lo
   return norms_or_nan(differences, a.plan->scene.flow->velocity_scale_at(t));
 }
 
+/// The values of a run on the grid at a time, and between them. Throws std::invalid_argument where they are
+/// no grid.
+GridOfValues grid_of(const RunData& run, double t) {
+  std::vector<GridOfValues::Row> rows;
+  for (const reports::ProfileRow* row : rows_at(run, t, Location::Grid))
+    rows.push_back({{row->x, row->y}, {row->u, row->v}});
+  const SceneConfig& scene = run.plan->scene;
+  Vec2 period = Vec2::Zero();
+  for (const int axis : {0, 1})
+    if (scene.scene.periodic(axis)) period[axis] = scene.scene.size[axis];
+  return {rows, period, scene.flow->across(), scene.flow->has_shear_profile(), Interpolation::Cubic};
+}
+
+/// Norms of the difference of a run to a finer one of its ladder, whose grid is interpolated.
+Norms norms_against(const RunData& run, const RunData& finer, double t, Location location) {
+  std::vector<Eigen::Vector2d> differences;
+  try {
+    const GridOfValues grid = grid_of(finer, t);
+    for (const reports::ProfileRow* row : rows_at(run, t, location))
+      differences.push_back(Vec2(row->u, row->v) - grid.at({row->x, row->y}));
+  } catch (const std::invalid_argument&) {
+    differences.clear();  // nothing to compare with: NaN
+  }
+  return norms_or_nan(differences, run.plan->scene.flow->velocity_scale_at(t));
+}
+
 /// GCI of the three finest levels and Eca-Hoekstra uncertainty of the probe velocity, relative to the scale.
 void add_uncertainty(reports::OrderRecord& order, const std::vector<const RunData*>& ladder,
                      std::size_t output, double formal_order) {
@@ -63,9 +93,13 @@ void measure_ladder(StudyData& data, const std::string& variant, Location locati
   const auto runs = data.runs_of(variant);
   const double t = runs.front()->plan->scene.outputs[output];
   std::vector<double> steps, values;
+  const bool against_itself = data.study->comparison == Comparison::Finest;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     steps.push_back(runs[k]->plan->step);
-    if (ladder.axis != Axis::Time) {
+    if (against_itself) {
+      if (k + 1 < runs.size())
+        values.push_back(pick(norms_against(*runs[k], *runs[k + 1], t, location), norm));
+    } else if (ladder.axis != Axis::Time) {
       for (const reports::ErrorRecord& error : runs[k]->errors)
         if (error.t == t && error.location == name(location))
           values.push_back(verification::pick(error, norm));
@@ -75,7 +109,7 @@ void measure_ladder(StudyData& data, const std::string& variant, Location locati
   }
   OrderOptions options;
   options.floor = ladder.floor;
-  const OrderEstimate estimate = ladder.axis != Axis::Time
+  const OrderEstimate estimate = ladder.axis != Axis::Time && !against_itself
                                      ? estimate_order(steps, values, options)
                                      : estimate_order_from_differences(steps, values, options);
   for (std::size_t k = 0; k < values.size(); ++k)
@@ -141,6 +175,26 @@ std::vector<reports::ErrorRecord> measure_errors(const RunData& run) {
     }
   }
   return records;
+}
+
+void compare_with_finest(StudyData& data) {
+  if (data.study->comparison != Comparison::Finest) return;
+  std::map<std::string, const RunData*> finest;
+  for (const RunData& run : data.runs) finest[run.plan->variant] = &run;  // coarse to fine
+  for (RunData& run : data.runs) {
+    const RunData& finer = *finest.at(run.plan->variant);
+    if (&finer == &run) {
+      run.errors.clear();
+      continue;
+    }
+    for (reports::ErrorRecord& error : run.errors) {
+      const Location location = error.location == name(Location::Grid) ? Location::Grid : Location::Particles;
+      const Norms norms = norms_against(run, finer, error.t, location);
+      error.l1 = norms.l1;
+      error.l2 = norms.l2;
+      error.linf = norms.linf;
+    }
+  }
 }
 
 void measure_orders(StudyData& data) {

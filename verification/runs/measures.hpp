@@ -11,6 +11,10 @@ std::vector<reports::ErrorRecord> measure_errors(const RunData& run);
 /// Fills levels and orders of a study with a ladder: against the exact solution in space and Mach number,
 /// from successive differences on one mesh in time. Orders in space carry the GCI and the Eca-Hoekstra
 /// uncertainty of the probe velocity.
+/// Of a study that compares with its own finest level (Comparison::Finest): the errors of all other levels
+/// against that level's grid, interpolated; the finest has none.
+void compare_with_finest(StudyData& data);
+
 void measure_orders(StudyData& data);
 
 /// The value of one norm.

@@ -170,6 +170,10 @@ std::shared_ptr<const ExactField> compared_with(const Study& study, const SceneC
       return scene.flow->steady_nodes(scene.discretisation);
     case Comparison::Ideal:
       return scene.flow->ideal();
+    case Comparison::Table:
+      return study.table;
+    case Comparison::Finest:
+      return nullptr;  // known when all levels have ended: compare_with_finest()
     default:
       return scene.flow->exact(scene.reference_times());
   }
@@ -243,7 +247,8 @@ RunData run_simulation(const Study& study, const PlannedRun& plan) {
   }
   RunData data = simulate(study, plan, started, exact.get());
   if (study.repetitions > 0) repeat_timing(study, plan, started, exact.get(), data.timing);
-  if (exact && (study.comparison == Comparison::Exact || study.comparison == Comparison::Ideal)) {
+  if (exact && (study.comparison == Comparison::Exact || study.comparison == Comparison::Ideal ||
+                study.comparison == Comparison::Table)) {
     const auto rows = exact_lines(scene, *exact);
     data.profile.insert(data.profile.end(), rows.begin(), rows.end());
     const auto shear = exact_shear(scene, *exact);

@@ -50,6 +50,19 @@ std::string handed_scene(const SceneConfig& scene, const std::string& options) {
   text.set("coordinates.across", std::string(scene.flow->across() == 0 ? "x" : "y"));
   if (scene.scene.periodic(0)) text.set("coordinates.period_x", scene.scene.size.x());
   if (scene.scene.periodic(1)) text.set("coordinates.period_y", scene.scene.size.y());
+  std::vector<double> points_x, points_y;
+  for (const Vec2& point : scene.flow->tabulated_points()) {
+    bool there = false;  // once, though both components are tabulated at it
+    for (std::size_t k = 0; k < points_x.size(); ++k)
+      there = there || (points_x[k] == point.x() && points_y[k] == point.y());
+    if (there) continue;
+    points_x.push_back(point.x());
+    points_y.push_back(point.y());
+  }
+  if (!points_x.empty()) {
+    text.set("coordinates.points_x", points_x);
+    text.set("coordinates.points_y", points_y);
+  }
   std::string start = start_in_words(scene.flow_name);
   if (scene.start > 0)
     start =

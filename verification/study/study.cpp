@@ -10,15 +10,21 @@ std::string name(Suite suite) {
       return "quick";
     case Suite::Full:
       return "full";
-    default:
+    case Suite::Deep:
       return "deep";
+    default:
+      return "peers";
   }
 }
 
+bool holds(Suite suite, Suite other) {
+  return suite == Suite::Peers || other == Suite::Peers ? suite == other : other <= suite;
+}
+
 Suite suite_named(const std::string& text) {
-  for (const Suite suite : {Suite::Quick, Suite::Full, Suite::Deep})
+  for (const Suite suite : {Suite::Quick, Suite::Full, Suite::Deep, Suite::Peers})
     if (name(suite) == text) return suite;
-  throw ConfigError("suite '" + text + "' is not known; choose one of: quick, full, deep");
+  throw ConfigError("suite '" + text + "' is not known; choose one of: quick, full, deep, peers");
 }
 
 std::string name(Axis axis) {

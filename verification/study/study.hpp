@@ -17,16 +17,26 @@
 
 namespace verification {
 
-/// Suites nest: everything in Quick runs in Full, everything in Full in Deep.
-enum class Suite { Quick, Full, Deep };
+/// Suites nest: everything in Quick runs in Full, everything in Full in Deep. Peers stands apart: studies
+/// that need somebody else's program.
+enum class Suite { Quick, Full, Deep, Peers };
+/// Whether a suite holds the studies of another.
+bool holds(Suite suite, Suite other);
 std::string name(Suite suite);
 /// Throws ConfigError for an unknown name.
 Suite suite_named(const std::string& text);
 
 /// What a run is compared with: the differential equations' solution, or the scheme's own (Discrete: a
 /// Newtonian channel at any time; SteadyNodes: any fluid, on the grid, once nothing changes any more), or
-/// the steady flow of the ideal fluid in place of one whose yield stress is regularised.
-enum class Comparison { Exact, Discrete, SteadyNodes, Ideal };
+/// the steady flow of the ideal fluid in place of one whose yield stress is regularised; or a table, or the
+/// finest level of its own ladder.
+enum class Comparison { Exact, Discrete, SteadyNodes, Ideal, Table, Finest };
+
+/// A table that a study brings with it.
+class ComparisonTable : public ExactField {
+ public:
+  [[nodiscard]] virtual bool holds(double t) const = 0;
+};
 
 /// One simulation of a study.
 struct PlannedRun {
@@ -102,6 +112,9 @@ struct Study {
       headlines;  ///< the same for the report's first screen
   Suite suite = Suite::Full;
   Comparison comparison = Comparison::Exact;
+  std::shared_ptr<const ComparisonTable> table;  ///< of Comparison::Table
+  std::string table_content;                     ///< its hash
+  double table_uncertainty = 0;                  ///< relative to the velocity scale
   /// Somebody else's, of every run; none: ours, or variants name solvers of their own.
   std::optional<ForeignSolver> solver;
   Ladder ladder;

@@ -27,7 +27,8 @@ constexpr const char* format = "mpm-verify run, format 1\n";
 
 /// All that decides the result of a run, as text.
 std::string content_of(const Study& study, const PlannedRun& plan) {
-  return fmt::format("compared with {}\nrepetitions {}\n{}", static_cast<int>(study.comparison),
+  return fmt::format("compared with {}\nrepetitions {}\n{}",
+                     std::to_string(static_cast<int>(study.comparison)) + study.table_content,
                      study.repetitions, plan.scene.toml);
 }
 

@@ -229,6 +229,7 @@ class SuiteRunner {
 
   /// Without the lock: nobody else works on a study whose jobs have all ended.
   void conclude(StudyData& data) {
+    compare_with_finest(data);
     measure_orders(data);
     evaluate_checks(data);
     data.matrix = matrix_records(data);

@@ -4,7 +4,7 @@ namespace verification {
 namespace {
 
 constexpr const char* names_help = "Names of studies or paths of study files (default: the whole suite)";
-constexpr const char* suite_help = "quick, full or deep (default: full, or all that is named)";
+constexpr const char* suite_help = "quick, full, deep or peers (default: full, or all that is named)";
 
 }  // namespace
 
@@ -65,16 +65,26 @@ ShardApp::ShardApp(CLI::App& app, std::string& studies, const char* studies_help
   submit_app_->add_option("--sbatch", submit_.resources, "Further arguments of sbatch, in quotes");
   submit_app_->add_option("--studies", studies, studies_help);
   submit_app_->add_flag("--dry-run", submit_.dry_run, "Write and print the scripts, submit nothing");
+  new_app_ = app.add_subcommand("new", "Write a study, or a solver with a study of it, that run as they are");
+  new_app_->add_option("WHAT", new_.what, "study or solver")
+      ->required()
+      ->check(CLI::IsMember({"study", "solver"}));
+  new_app_->add_option("NAME", new_.name, "Its name")->required();
+  new_app_->add_option("--language", new_.language, "Of a solver")
+      ->check(CLI::IsMember({"sh", "python", "cpp"}))
+      ->capture_default_str();
+
   submit_app_->add_flag("--detach", submit_.detach, "Submit and return; the same command follows later");
 }
 
 std::optional<int> ShardApp::run(const std::filesystem::path& studies, const std::string& command_line) {
-  plan_.studies = submit_.studies = studies;
+  plan_.studies = submit_.studies = new_.studies = studies;
   plan_.command_line = judge_.command_line = collect_.command_line = submit_.command_line = command_line;
   if (*plan_app_) return plan_command(plan_);
   if (*judge_app_) return judge_command(judge_);
   if (*collect_app_) return collect_command(collect_);
   if (*submit_app_) return submit_command(submit_);
+  if (*new_app_) return new_command(new_);
   return std::nullopt;
 }
 

@@ -68,7 +68,11 @@ void add_profile(const PlannedRun& plan, const fs::path& folder, const fs::path&
   const std::vector<std::string> lacks = shortcomings(data.profile, plan, *plan.solver);
   if (!lacks.empty())
     throw std::runtime_error(fmt::format("its profile.csv is not whole: {}", fmt::join(lacks, "; ")));
+  const mpm::VectorField points = scene.flow->tabulated_points();
+  const double near = 1e-6 * scene.scene.smallest_cell_size();
   for (reports::ProfileRow& row : data.profile) {
+    for (const Vec2& point : points)  // as they were meant: digits of a text may be fewer
+      if (std::hypot(row.x - point.x(), row.y - point.y()) <= near) row.x = point.x(), row.y = point.y();
     row.t = output_time(scene, row.t);
     const Location location = row.location == "grid" ? Location::Grid : Location::Particles;
     const Vec2 v = exact ? exact->velocity({row.x, row.y}, row.t, location) : Vec2(nan, nan);
@@ -175,7 +179,7 @@ void read_delivery(const Study& study, const PlannedRun& plan, const fs::path& f
   } catch (const reports::IoError& error) {
     throw std::runtime_error(error.what());  // the fault of the solver, not of our result directory
   }
-  if (!exact || study.comparison != Comparison::Exact) return;
+  if (!exact || (study.comparison != Comparison::Exact && study.comparison != Comparison::Table)) return;
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(data.profile, exact_lines(scene, *exact));
   if (!data.shear.empty()) append(data.shear, exact_shear(scene, *exact));

@@ -46,6 +46,19 @@ long empty_blocks(const Rows& rows, const mpm::Scene& scene) {
   return static_cast<long>(blocks(0)) * blocks(1) - static_cast<long>(held.size());
 }
 
+/// Of a flow that is known at the points of a table alone: the first of them that is not among the rows; ""
+/// if they all are.
+std::string missing_point(const Rows& rows, const SceneConfig& config) {
+  const double near = rounding * config.scene.smallest_cell_size();
+  for (const Vec2& point : config.flow->tabulated_points())
+    if (std::ranges::none_of(rows, [&](const auto* row) {
+          return std::hypot(row->x - point.x(), row->y - point.y()) <= near;
+        }))
+      return fmt::format("the point x = {:.6g}, y = {:.6g} is not there, at which the solution is known",
+                         point.x(), point.y());
+  return "";
+}
+
 std::string check_group(const Rows& rows, const PlannedRun& plan, const ForeignSolver& solver) {
   const SceneConfig& config = plan.scene;
   const mpm::Scene& scene = config.scene;
@@ -66,6 +79,8 @@ std::string check_group(const Rows& rows, const PlannedRun& plan, const ForeignS
   const int needed = solver.points_across > 0 ? solver.points_across : config.discretisation.cells;
   if (static_cast<int>(rows.size()) < needed)
     return fmt::format("found {} points; expected at least {}, one a cell across", rows.size(), needed);
+  if (rows.front()->location == name(Location::Grid))
+    if (std::string lack = missing_point(rows, config); !lack.empty()) return lack;
   const double cell = scene.size[across] / std::min(needed, config.discretisation.cells);
   if (const double gap = gap_along(rows, scene, across); gap > widest_gap * cell * (1 + rounding))
     return fmt::format(

@@ -46,6 +46,7 @@ std::vector<std::string> further_studies() {
       channel + "[solver]\ncommand = \"true\"\nversion = \"true\"\noptions = {a = 1}\ninputs = [\".\"]\n" +
           any_check,
       channel + "[solver]\nresults = \"theirs/{run}\"\n" + any_check,
+      "compare_with = \"gone.csv\"\n" + channel + "[compare_table]\nuncertainty = 1\n" + any_check,
       "expected_checks = 1\n" + channel + any_check,
       channel + "[[check]]\nkind = \"error\"\nrelative_to = \"present\"\nupper = 1\nreason = \"any\"\n" +
           "[[check]]\nkind = \"error\"\nrelative_to = 1e-4\nupper = 1\nreason = \"any\"\n",
