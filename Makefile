@@ -10,7 +10,7 @@ PDF     := $(if $(shell command -v chromium || command -v chromium-browser || co
 # Seconds that `make fuzz` gives each of its three harnesses.
 FUZZ_SECONDS ?= 60
 
-.PHONY: verify verify-quick verify-deep verify-slurm test bench fuzz fuzz-mutations faults package program packages configure clean
+.PHONY: verify verify-quick verify-deep verify-peers verify-slurm test bench fuzz fuzz-mutations faults package program packages configure clean
 
 verify: program
 	$(PROGRAM) run --suite full --out $(RESULTS) $(PDF)
@@ -20,6 +20,11 @@ verify-quick: program
 
 verify-deep: program
 	$(PROGRAM) run --suite deep --out $(RESULTS)-deep
+
+# Other people's solvers beside ours: OpenFOAM, installed if it is missing.
+verify-peers: program
+	sh verification/adapters/openfoam/install
+	$(PROGRAM) run --suite peers --out $(RESULTS)-peers
 
 # The quick suite through a real Slurm, one node in user space, with a task killed midway. Needs root or sudo.
 verify-slurm: program

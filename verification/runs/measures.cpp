@@ -162,6 +162,9 @@ std::vector<reports::ErrorRecord> measure_errors(const RunData& run) {
       for (const reports::ProfileRow* row : rows_at(run, t, location)) {
         const double exact = std::hypot(row->u_exact, row->v_exact);
         if (!(exact <= exact_max) && !std::isnan(exact)) exact_max = exact;
+        const bool is_outside = std::isnan(row->u_exact) && std::isnan(row->v_exact);
+        if (is_tabulated && is_outside && location == Location::Grid)
+          continue;  // no point of the table: a foreign solver's own
         if (!is_tabulated || location == Location::Particles)
           errors.emplace_back(row->u - row->u_exact, row->v - row->v_exact);
         else
