@@ -1,6 +1,6 @@
-#include "solver/grid/stencil_matrix.hpp"
-
 #include <cstring>
+
+#include "solver/grid/stencil_matrix.hpp"
 
 namespace mpm {
 namespace {
@@ -49,9 +49,12 @@ void StencilMatrix::multiply(const VectorField& field, VectorField& product) con
   for (int j = 0; j < ny; ++j) {
     const int l = y_.neighbour(j - degree_);
     if (l < 0) continue;
-    for (int i = 0; i < nx; ++i)
-      if (const int k = x_.neighbour(i - degree_); k >= 0)
-        padded_[static_cast<std::size_t>(j * nx + i)] = field[static_cast<std::size_t>(l * x_.count + k)];
+    const Vec2* row = field.data() + l * x_.count;
+    Vec2* padded_row = padded_.data() + j * nx + degree_;
+    std::copy(row, row + x_.count, padded_row);
+    for (int d = 0; d < degree_; ++d)
+      for (const int i : {d - degree_, x_.count + d})
+        if (const int k = x_.neighbour(i); k >= 0) padded_row[i] = row[k];
   }
   product.resize(field.size());
   switch (degree_) {

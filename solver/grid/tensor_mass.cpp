@@ -1,8 +1,8 @@
-#include "solver/grid/tensor_mass.hpp"
-
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <algorithm>
 
+#include "solver/grid/tensor_mass.hpp"
 #include "solver/scene/seeding.hpp"
 
 namespace mpm {
@@ -29,6 +29,16 @@ Eigen::MatrixXd mass_along(const Axis& axis) {
                                                                     value[static_cast<std::size_t>(l)];
     }
   return mass;
+}
+
+/// to(j, i) = from(i, j), a few rows at a time: the cache lines read and written are then used whole.
+void transpose(const VectorField& from, std::size_t rows, std::size_t columns, VectorField& to) {
+  constexpr std::size_t strip = 8;
+  for (std::size_t begin = 0; begin < rows; begin += strip) {
+    const std::size_t end = std::min(begin + strip, rows);
+    for (std::size_t j = 0; j < columns; ++j)
+      for (std::size_t i = begin; i < end; ++i) to[j * rows + i] = from[i * columns + j];
+  }
 }
 
 }  // namespace
@@ -74,11 +84,9 @@ void TensorMass::solve_rows(const Factor& factor, double* rows, std::size_t widt
 void TensorMass::solve(VectorField& field) {
   const std::size_t nx = x_.diagonal.size(), ny = y_.diagonal.size();
   solve_rows(y_, field.front().data(), 2 * nx);
-  for (std::size_t j = 0; j < ny; ++j)
-    for (std::size_t i = 0; i < nx; ++i) transposed_[i * ny + j] = field[j * nx + i];
+  transpose(field, ny, nx, transposed_);
   solve_rows(x_, transposed_.front().data(), 2 * ny);
-  for (std::size_t j = 0; j < ny; ++j)
-    for (std::size_t i = 0; i < nx; ++i) field[j * nx + i] = transposed_[i * ny + j];
+  transpose(transposed_, nx, ny, field);
 }
 
 }  // namespace mpm
