@@ -1,6 +1,6 @@
-#include <cstring>
-
 #include "solver/grid/stencil_matrix.hpp"
+
+#include <cstring>
 
 namespace mpm {
 namespace {

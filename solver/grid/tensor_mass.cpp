@@ -1,8 +1,9 @@
+#include "solver/grid/tensor_mass.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "solver/grid/tensor_mass.hpp"
 #include "solver/scene/seeding.hpp"
 
 namespace mpm {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "solver/incompressible/exact_mass.hpp"
 #include "solver/incompressible/particle_weights.hpp"
-#include "solver/incompressible/stencil_diagonals.hpp"
+#include "solver/incompressible/space/exact_mass.hpp"
+#include "solver/incompressible/space/stencil_diagonals.hpp"
 #include "solver/kernel/thread_team.hpp"
 
 namespace mpm::incompressible {

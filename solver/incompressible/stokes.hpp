@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "solver/incompressible/incompressible_scheme.hpp"
-#include "solver/incompressible/viscosity.hpp"
+#include "solver/incompressible/viscosity/viscosity.hpp"
 
 namespace mpm::incompressible {
 

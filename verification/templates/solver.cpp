@@ -36,7 +36,8 @@ int main(int argc, char** argv) {
   const double nu = number("fluid.kinematic_viscosity"), safety = number("solver.options.safety");
   const int n = static_cast<int>(number("discretisation.cells"));
   std::string list = scene.at("time.outputs");
-  std::replace_if(list.begin(), list.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
+  std::replace_if(
+      list.begin(), list.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
   std::istringstream outputs(list);
 
   std::ofstream profile(out + "/profile.csv");

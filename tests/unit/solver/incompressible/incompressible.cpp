@@ -1,9 +1,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/incompressible/exact_mass.hpp"
 #include "solver/incompressible/make_incompressible_solver.hpp"
 #include "solver/incompressible/particle_fit.hpp"
+#include "solver/incompressible/space/exact_mass.hpp"
 #include "solver/incompressible/stokes.hpp"
 #include "solver/scene/seeding.hpp"
 #include "tests/catch.hpp"

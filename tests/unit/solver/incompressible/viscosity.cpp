@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "solver/incompressible/exact_mass.hpp"
-#include "solver/incompressible/newtonian_viscosity.hpp"
-#include "solver/incompressible/shear_viscosity.hpp"
+#include "solver/incompressible/space/exact_mass.hpp"
 #include "solver/incompressible/stokes.hpp"
+#include "solver/incompressible/viscosity/newtonian_viscosity.hpp"
+#include "solver/incompressible/viscosity/shear_viscosity.hpp"
 #include "tests/catch.hpp"
 
 using namespace mpm;

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "solver/incompressible/viscous_form.hpp"
+#include "solver/incompressible/viscosity/viscous_form.hpp"
 
 namespace mpm::incompressible {
 

@@ -1,4 +1,4 @@
-#include "solver/incompressible/stream_function.hpp"
+#include "solver/incompressible/space/stream_function.hpp"
 
 namespace mpm::incompressible {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/incompressible/velocity_space.hpp"
+#include "solver/incompressible/space/velocity_space.hpp"
 
 namespace mpm::incompressible {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/incompressible/exact_mass.hpp"
+#include "solver/incompressible/space/exact_mass.hpp"
 
 namespace mpm::incompressible {
 

@@ -1,4 +1,4 @@
-#include "solver/incompressible/spline_axis.hpp"
+#include "solver/incompressible/space/spline_axis.hpp"
 
 #include <algorithm>
 

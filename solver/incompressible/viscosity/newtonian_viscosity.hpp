@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "solver/incompressible/viscosity.hpp"
+#include "solver/incompressible/viscosity/viscosity.hpp"
 
 namespace mpm::incompressible {
 

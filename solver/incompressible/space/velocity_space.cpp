@@ -1,4 +1,4 @@
-#include "solver/incompressible/velocity_space.hpp"
+#include "solver/incompressible/space/velocity_space.hpp"
 
 #include <algorithm>
 #include <cmath>

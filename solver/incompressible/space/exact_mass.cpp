@@ -1,4 +1,4 @@
-#include "solver/incompressible/exact_mass.hpp"
+#include "solver/incompressible/space/exact_mass.hpp"
 
 namespace mpm::incompressible {
 

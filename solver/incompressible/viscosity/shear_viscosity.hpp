@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/incompressible/flow_law.hpp"
-#include "solver/incompressible/stream_function.hpp"
-#include "solver/incompressible/viscosity.hpp"
+#include "solver/incompressible/space/stream_function.hpp"
+#include "solver/incompressible/viscosity/flow_law.hpp"
+#include "solver/incompressible/viscosity/viscosity.hpp"
 #include "solver/scene/seeding.hpp"
 
 namespace mpm::incompressible {

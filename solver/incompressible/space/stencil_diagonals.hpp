@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "solver/incompressible/velocity_space.hpp"
+#include "solver/incompressible/space/velocity_space.hpp"
 
 namespace mpm::incompressible {
 

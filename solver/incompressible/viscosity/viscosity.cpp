@@ -1,7 +1,7 @@
-#include "solver/incompressible/viscosity.hpp"
+#include "solver/incompressible/viscosity/viscosity.hpp"
 
-#include "solver/incompressible/newtonian_viscosity.hpp"
-#include "solver/incompressible/shear_viscosity.hpp"
+#include "solver/incompressible/viscosity/newtonian_viscosity.hpp"
+#include "solver/incompressible/viscosity/shear_viscosity.hpp"
 
 namespace mpm::incompressible {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "solver/incompressible/spline_axis.hpp"
+#include "solver/incompressible/space/spline_axis.hpp"
 #include "solver/material/rheology.hpp"
 
 namespace mpm::incompressible {

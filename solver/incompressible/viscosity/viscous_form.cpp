@@ -1,4 +1,4 @@
-#include "solver/incompressible/viscous_form.hpp"
+#include "solver/incompressible/viscosity/viscous_form.hpp"
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <functional>
 
-#include "solver/incompressible/spline_axis.hpp"
+#include "solver/incompressible/space/spline_axis.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace mpm::incompressible {
