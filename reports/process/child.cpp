@@ -120,6 +120,12 @@ std::string ChildEnd::text() const {
   return fmt::format("exit code {} after {:.3g} s", exit_code, seconds);
 }
 
+std::string ChildEnd::cause() const {
+  if (!error.empty() || timed_out || stopped) return text();
+  return signal != 0 ? fmt::format("signal {} ({})", signal, strsignal(signal))
+                     : fmt::format("exit code {}", exit_code);
+}
+
 ChildEnd run_child(const ChildCommand& command) {
   ChildEnd end;
   if (command.arguments.empty()) {

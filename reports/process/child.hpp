@@ -30,6 +30,8 @@ struct ChildEnd {
   [[nodiscard]] bool well() const { return exit_code == 0 && !timed_out && !stopped && error.empty(); }
   /// "exit code 3 after 0.2 s", "signal 11 (Segmentation fault) after 4.1 s", "no end within 60 s", ...
   [[nodiscard]] std::string text() const;
+  /// The same without the time that it took, which no two runs share: for tables.
+  [[nodiscard]] std::string cause() const;
 };
 
 /// Runs a program to its end in a process group of its own, with no standard input. Whatever way it ends,

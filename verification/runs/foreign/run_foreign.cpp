@@ -154,7 +154,7 @@ Source make_results(const PlannedRun& plan, const fs::path& out, const fs::path&
   const reports::ChildCommand command = command_of(solver, plan, out, folder);
   const reports::ChildEnd end = reports::run_child(command);
   throw_if_interrupted();
-  if (!end.well()) throw std::runtime_error(end.text());
+  if (!end.well()) throw std::runtime_error(end.cause());
   return {folder, end.seconds, false, key};
 }
 
