@@ -14,6 +14,8 @@ std::string start_in_words(const std::string& flow) {
       {"couette", "at rest; the upper plate moves with plate_velocity from t = 0"},
       {"couette-poiseuille", "at rest; plate_velocity and body_acceleration act from t = 0"},
       {"cessation", "the steady flow under initial_acceleration, which stops at t = 0"},
+      {"stress-driven-couette",
+       "at rest; the upper side is pulled along itself by the stress traction from t = 0"},
       {"oscillating-plate",
        "the periodic state Re[V0 sinh(l y)/sinh(l H)], l = sqrt(i w/nu), w = 2 pi frequency; the upper plate "
        "moves with plate_velocity cos(w t)"},

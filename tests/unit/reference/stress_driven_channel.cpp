@@ -22,7 +22,9 @@ TEST_CASE("stress-driven start-up: the plate holds, the side pulls, the end is l
     CHECK(channel.gradient(height, t) == Approx(stress / nu).epsilon(1e-12));
     const double e = 1e-7, y = 7e-4;
     CHECK(channel.gradient(y, t) ==
-          Approx((channel.velocity(y + e, t) - channel.velocity(y - e, t)) / (2 * e)).epsilon(1e-5));
+          Approx((channel.velocity(y + e, t) - channel.velocity(y - e, t)) / (2 * e))
+              .epsilon(1e-5)
+              .margin(1e-8 * std::abs(stress) / nu));
     // nu u_yy = u_t
     const double dt = 1e-4 * t, dy = 2e-6;
     const double bend =
