@@ -108,7 +108,7 @@ std::vector<const CheckRecord*> by_demand(const std::vector<const CheckRecord*>&
 }  // namespace
 
 std::string html_checks(const std::vector<const CheckRecord*>& checks, bool with_study) {
-  constexpr std::size_t most_passes = 60;  // a study; failures are all shown
+  constexpr std::size_t most_passes = 40;  // a study; failures are all shown
   std::string rows;
   std::size_t passes = 0;
   const CheckRecord* before = nullptr;
