@@ -56,9 +56,10 @@ class IncompressibleSolver final : public Simulation {
     const VectorXd start = stokes_.solenoidal_part(fitted);
     const Stokes::Step step = stokes_.advanced(start, t, dt, scheme_.stepping);
     const VectorXd gradient = fitted - start;
-    if (last_gradient_.size() == 0) last_gradient_ = gradient;
-    field_ = step.end - 0.5 * (gradient + last_gradient_);
-    last_gradient_ = gradient;
+    if (last_gradient_.size() == 0) last_gradient_ = gradient / dt;
+    field_ = step.end - 0.5 * (gradient + dt * last_gradient_);
+    last_gradient_ =
+        gradient / dt;  // as much as the step is long, and the last one before an output is shorter
     impulse_ += scene_.fluid.density * step.impulse;
 
     take(space_.extended(field_));
@@ -176,7 +177,8 @@ class IncompressibleSolver final : public Simulation {
   const VectorField lattice_;
   std::vector<double> volume_;  // [m2]
   VectorField middle_;          // where the fit is taken
-  VectorXd field_, last_gradient_;
+  VectorXd field_;
+  VectorXd last_gradient_;  // by the length of its step
   Drift drift_;
   Vec2 impulse_ = Vec2::Zero();
   double now_ = scene_.start;
