@@ -132,15 +132,22 @@ int run_session(const std::vector<Study>& studies, const SuiteSession& session, 
   // Provenance first: an interrupted run still says what made its files.
   reports::write_provenance(session.out, provenance_of(session.command_line));
   SuiteOutcome outcome;
+  const auto stopped = [&](int signal) {
+    if (progress) warn("\r\033[K");
+    warn("mpm-verify: interrupted; {} holds the studies that had ended{}\n", session.out.string(),
+         cache.on() ? ", and the same command goes on from there" : "");
+    return 128 + signal;
+  };
   try {
     const InterruptionGuard guard;
     outcome = run_suite(studies, session.out, session.jobs, cache, listener,
                         session.keep_profiles ? Profiles::All : Profiles::Needed);
   } catch (const Interrupted& stop) {
-    if (progress) warn("\r\033[K");
-    warn("mpm-verify: interrupted; {} holds the studies that had ended{}\n", session.out.string(),
-         cache.on() ? ", and the same command goes on from there" : "");
-    return 128 + stop.signal;
+    return stopped(stop.signal);
+  } catch (const std::exception&) {
+    // What fails after a signal fails because of it: a child that was stopped leaves half of its files.
+    if (const int signal = noted_signal()) return stopped(signal);
+    throw;
   }
   cache.prune();
   earlier.write_changes();

@@ -43,7 +43,11 @@ void throw_if_interrupted() {
 }
 
 bool interruption_noted() {
-  return received.load(std::memory_order_relaxed) != 0;
+  return noted_signal() != 0;
+}
+
+int noted_signal() {
+  return received.load(std::memory_order_relaxed);
 }
 
 }  // namespace verification

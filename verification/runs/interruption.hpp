@@ -27,5 +27,7 @@ void throw_if_interrupted();
 
 /// Whether one has come: for what must end its children first.
 bool interruption_noted();
+/// Which; 0 for none.
+int noted_signal();
 
 }  // namespace verification
