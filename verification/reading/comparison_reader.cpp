@@ -25,7 +25,7 @@ class TableField final : public ComparisonTable {
   TableField(std::map<double, std::vector<GridOfValues::Row>> rows, std::string name, Interpolation rule)
       : name_(std::move(name)) {
     for (const auto& [t, points] : rows) {
-      const auto same = [&](int axis) {
+      const auto same = [&points = points](int axis) {
         return std::ranges::all_of(points,
                                    [&](const auto& row) { return row.place[axis] == points[0].place[axis]; });
       };

@@ -117,7 +117,7 @@ TEST_CASE("the schema has exactly the keys that the readers ask for, with their 
   const auto keys = schema_keys();
   for (const auto& [path, how] : asked) {
     INFO("the readers ask for '" << path << "': add it to verification/schema/study.schema.json");
-    const bool is_free = std::ranges::any_of(keys, [&](const auto& key) {
+    const bool is_free = std::ranges::any_of(keys, [&path = path](const auto& key) {
       return key.first.ends_with("*") && path.starts_with(key.first.substr(0, key.first.size() - 1));
     });
     if (is_free) continue;
