@@ -46,7 +46,7 @@ std::vector<LabelledRun> runs_of(const FigureRecord& record, const Results& resu
   for (std::size_t i = 0; i < labels.size(); ++i) chosen[i].label = labels[i];
   // The built-in solver's variants are told apart by their names alone; whoever else made points is named.
   for (LabelledRun& run : chosen)
-    if (run.run->method != RunRecord().method && run.label != run.run->method)
+    if (run.run->method != RunRecord().method && run.label.find(run.run->method) == std::string::npos)
       run.label += (run.label.empty() ? "" : ", ") + run.run->method;
   return chosen;
 }

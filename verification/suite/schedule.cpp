@@ -27,7 +27,9 @@ Schedule schedule(const std::vector<Study>& studies) {
           .push_back({s, r, scene.particle_steps()});
       const auto reference = costly_reference(studies[s], scene);
       if (!reference) continue;
-      Longest& longest = references.try_emplace(reference->name, Longest{0, {}}).first->second;
+      Longest& longest =
+          references.try_emplace(reference->name, Longest{-std::numeric_limits<double>::infinity(), {}})
+              .first->second;
       if (reference->end > longest.end)
         longest = {reference->end, {s, r, std::numeric_limits<double>::infinity(), Job::Kind::Reference}};
     }
