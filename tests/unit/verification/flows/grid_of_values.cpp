@@ -35,9 +35,9 @@ double error_between(int n, Interpolation rule) {
 TEST_CASE(
     "values between the points of a grid: second order by lines, fourth by cubics, also around a period") {
   CHECK(std::log2(error_between(16, Interpolation::Linear) / error_between(32, Interpolation::Linear)) ==
-        Catch::Detail::Approx(2).margin(0.2));
+        Approx(2).margin(0.2));
   CHECK(std::log2(error_between(16, Interpolation::Cubic) / error_between(32, Interpolation::Cubic)) ==
-        Catch::Detail::Approx(4).margin(0.2));
+        Approx(4).margin(0.2));
 }
 
 TEST_CASE("a line of values counts the place across alone, and says nothing outside") {
