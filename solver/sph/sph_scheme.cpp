@@ -25,6 +25,11 @@ void SphScheme::validate() const {
     throw SceneError("wall_limit must be finite and at least 1");
 }
 
+FormalOrder formal_order(const SphScheme& scheme) {
+  const double space = scheme.wall == SphScheme::Wall::Mirror ? 2 : 1;
+  return {space, space, 2, 0};
+}
+
 std::string name(SphScheme::Kernel kernel) {
   return kernel == SphScheme::Kernel::Quintic ? "quintic" : "cubic";
 }

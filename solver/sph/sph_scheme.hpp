@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "solver/scene/scheme.hpp"
+
 namespace mpm {
 
 /// How smoothed particle hydrodynamics simulates a scene: its choices stand to SphSolver as Scheme does to
@@ -28,6 +30,12 @@ struct SphScheme {
   /// Throws SceneError for a smoothing length or a limit out of range.
   void validate() const;
 };
+
+/// Orders for a lattice of particles that flow along their rows: kernel and mirror images are symmetric,
+/// order 2 in the spacing at a fixed ratio of smoothing; an extrapolation that is limited beside the wall
+/// leaves order 1 (Morris, Fox & Zhu 1997, section 3.7). Velocity Verlet is of order 2, nothing is lost by
+/// remapping.
+FormalOrder formal_order(const SphScheme& scheme);
 
 /// Name of a part, e.g. "quintic"; and back (throws SceneError listing the known names).
 std::string name(SphScheme::Kernel kernel);

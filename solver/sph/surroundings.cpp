@@ -103,6 +103,17 @@ void Surroundings::fill(std::vector<Neighbour>& entries, double t, const Vec2& g
   }
 }
 
+void Surroundings::fill(std::vector<Mat2>& stress) const {
+  for (std::size_t k = 0; k < images_.size(); ++k) {
+    const Image& image = images_[k];
+    Mat2 copy = stress[image.source];
+    for (const int axis : {0, 1})
+      if (image.sign[static_cast<std::size_t>(axis)] < 0) copy.col(1 - axis) *= -1;  // v' = -v, d/dx' = -d/dx
+    stress[fluid_ + k] = copy;
+  }
+  for (std::size_t k = 0; k < fixed_.size(); ++k) stress[fluid_ + images_.size() + k].setZero();
+}
+
 /// The fluid's lattice continued behind the walls, and along periodic directions as far as anything is
 /// needed.
 std::vector<Surroundings::Fixed> Surroundings::fixed_particles() const {

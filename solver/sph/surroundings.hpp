@@ -38,6 +38,10 @@ class Surroundings {
   /// mirrored pressure rises with across the wall.
   void fill(std::vector<Neighbour>& entries, double t, const Vec2& gravity) const;
 
+  /// Writes mu grad v [Pa] of copies and images, from that of the fluid: no-slip mirrors turn the sign of
+  /// what varies along the wall. Fixed particles have none of their own.
+  void fill(std::vector<Mat2>& stress) const;
+
   /// A fixed wall particle: where its wall is, and how far behind it.
   struct Fixed {
     Vec2 position;

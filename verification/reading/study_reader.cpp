@@ -97,10 +97,10 @@ Ladder ladder_for(const Study& study, const TomlTable& scene) {
   Ladder ladder = study.ladder;
   if (!study.matrix) return ladder;
   TomlTable copy = scene.overlaid_with(TomlTable::from_text("", ""), "");
-  const mpm::Scheme scheme = read_scene_config(copy).scheme;
-  if (ladder.formal_exponent) ladder.dt_exponent = formal_dt_exponent(scheme);
-  ladder.theoretical = expected_order(scheme, ladder.axis, ladder.dt_exponent, Location::Grid);
-  ladder.theoretical_particles = expected_order(scheme, ladder.axis, ladder.dt_exponent, Location::Particles);
+  const mpm::FormalOrder formal = formal_order(read_scene_config(copy));
+  if (ladder.formal_exponent) ladder.dt_exponent = formal_dt_exponent(formal);
+  ladder.theoretical = expected_order(formal, ladder.axis, ladder.dt_exponent, Location::Grid);
+  ladder.theoretical_particles = expected_order(formal, ladder.axis, ladder.dt_exponent, Location::Particles);
   return ladder;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "verification/config/config_error.hpp"
+
 namespace verification {
 namespace {
 
@@ -34,14 +36,17 @@ std::string reason(const mpm::FormalOrder& formal, Axis axis) {
 
 }  // namespace
 
-double formal_dt_exponent(const mpm::Scheme& scheme) {
-  const mpm::FormalOrder formal = mpm::formal_order(scheme);
+mpm::FormalOrder formal_order(const SceneConfig& scene) {
+  if (scene.incompressible) throw ConfigError("a [matrix] holds weakly compressible schemes alone");
+  return scene.sph ? mpm::formal_order(*scene.sph) : mpm::formal_order(scene.scheme);
+}
+
+double formal_dt_exponent(const mpm::FormalOrder& formal) {
   return std::max(
       2.0, formal.space / formal.time);  // at least 2, so that nu dt/h^2 stays below the explicit limit
 }
 
-double expected_order(const mpm::Scheme& scheme, Axis axis, double dt_exponent, Location location) {
-  const mpm::FormalOrder formal = mpm::formal_order(scheme);
+double expected_order(const mpm::FormalOrder& formal, Axis axis, double dt_exponent, Location location) {
   if (axis == Axis::Time) return formal.remap_space > 0 ? nan : formal.time;
   const double space = location == Location::Grid ? formal.space : formal.space_particles;
   double order = std::min(space, formal.time * dt_exponent);
@@ -66,7 +71,7 @@ std::vector<reports::MatrixRecord> matrix_records(const StudyData& data) {
     const RunData& run = *data.runs_of(order.variant).front();
     if (order.norm != "l2" || order.t != run.plan->scene.outputs.back()) continue;
     const Axis axis = data.study->ladder.axis;
-    const mpm::FormalOrder formal = mpm::formal_order(run.plan->scene.scheme);
+    const mpm::FormalOrder formal = formal_order(run.plan->scene);
     reports::MatrixRecord record{
         run.record.basis,    run.record.transfer, run.record.stepping,         run.record.scene,
         order.axis,          order.location,      order.theoretical,           order.observed,

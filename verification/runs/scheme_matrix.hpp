@@ -9,12 +9,16 @@
 namespace verification {
 
 /// Exponent k of dt ~ h^k at which the time error of a scheme falls at least as fast as its mesh error.
-double formal_dt_exponent(const mpm::Scheme& scheme);
+double formal_dt_exponent(const mpm::FormalOrder& formal);
 
-/// Order of a scheme on a ladder, from its formal orders p (space), q (time) and its remap loss ~ h^r/dt: in
+/// Theory's orders of whatever simulates a scene. Throws ConfigError for a method that has no place in a
+/// matrix.
+mpm::FormalOrder formal_order(const SceneConfig& scene);
+
+/// Order on a ladder, from its formal orders p (space), q (time) and its remap loss ~ h^r/dt: in
 /// space with dt ~ h^k the smallest of p, q k and r - k; in time q, or NaN where the loss hides it (the error
 /// then grows as dt shrinks, and no order in dt exists).
-double expected_order(const mpm::Scheme& scheme, Axis axis, double dt_exponent, Location location);
+double expected_order(const mpm::FormalOrder& formal, Axis axis, double dt_exponent, Location location);
 
 /// Slope of ln(error against the exact solution) on ln dt, and the smallest such error: what a lossy scheme
 /// shows in place of an order.

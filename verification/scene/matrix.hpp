@@ -9,14 +9,16 @@
 namespace verification {
 
 /// Combinations of scheme parts, each a variant of a study: [matrix] basis, transfer, stepping, each a list
-/// of names.
+/// of names; with method = "sph" kernel, wall, density.
 struct MatrixEntry {
-  std::string variant;                    ///< "cubic_full-mass_leapfrog"
-  std::string basis, transfer, stepping;  ///< names
+  std::string variant;                    ///< "cubic_full-mass_leapfrog", "sph_quintic_mirror_continuity"
+  std::string basis, transfer, stepping;  ///< names; empty for SPH
   double flip_fraction = 0;               ///< flip-blend only
+  std::string kernel, wall, density;      ///< names; of SPH only
 
   /// The entry as a TOML table [scheme].
   [[nodiscard]] std::string toml() const;
+  [[nodiscard]] bool is_sph() const { return !kernel.empty(); }
 };
 
 /// Names of parts listed under a key, all of them where it is absent; one that is not known is refused

@@ -160,6 +160,11 @@ double StabilityPlan::cost(const StabilityCase& one) const {
 
 StabilityPlan read_stability(TomlTable table, const std::vector<MatrixEntry>& matrix) {
   StabilityPlan plan;
+  for (const MatrixEntry& entry : matrix)
+    if (entry.is_sph())
+      table.fail("waves",
+                 "stability maps are for a [matrix] of material point schemes; the limit of \"sph\" is "
+                 "tested by a study with steps on both sides of it");
   plan.lattice = read_lattice(table);
   plan.acoustic_shares = table.numbers("acoustic_shares");
   if (plan.acoustic_shares.empty()) table.fail("acoustic_shares", "must not be empty");

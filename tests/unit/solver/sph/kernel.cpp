@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -45,4 +46,28 @@ TEST_CASE("SPH sums over a lattice are exact for constants and for linear fields
     CHECK(std::abs(moment - 1) < 3e-3);
     CHECK(kernel.gradient(9.01 * ratio * ratio * dx * dx) == 0);
   }
+}
+
+TEST_CASE("as rows slide, viscous sums of the cubic kernel vary by 1.6 %, of the quintic by 0.13 %",
+          "[sph]") {
+  const double dx = 1e-4;
+  const auto variation = [&](SphScheme::Kernel kind, double ratio) {
+    const sph::SmoothingKernel kernel(kind, ratio * dx, dx, dx);
+    double least = 2, most = 0;
+    for (const double slide : {0.0, 0.25, 0.5}) {
+      double sum = 0;  // of grad^2 (y^2/2) over the lattice, every other row slid
+      for (int j = -8; j <= 8; ++j)
+        for (int i = -8; i <= 8; ++i) {
+          const double x = i + (j % 2 != 0 ? slide : 0.0);
+          sum -= dx * dx * kernel.gradient((x * x + j * j) * dx * dx) * (j * dx) * (j * dx);
+        }
+      least = std::min(least, sum);
+      most = std::max(most, sum);
+    }
+    CHECK(least < 1);
+    CHECK(most > 1);
+    return most - least;
+  };
+  CHECK(variation(SphScheme::Kernel::Cubic, 1.3) == Approx(0.01625).epsilon(0.01));
+  CHECK(variation(SphScheme::Kernel::Quintic, 1.0) == Approx(0.00127).epsilon(0.02));
 }
