@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -80,33 +80,57 @@ std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
   return pointers;
 }
 
+/// What a child does between fork and the program that replaces it; the parent has other threads, so only
+/// what is safe in a signal handler. It dies with the thread that waits for it: a process that was killed
+/// outright leaves nobody behind who writes into its directories. Returns the error number where a step
+/// fails.
+int become(const char* program, char* const* arguments, char* const* environment, const char* directory,
+           const char* log, pid_t parent) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);  // it ended before the line above
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGHUP}) signal(number, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  const int in = open("/dev/null", O_RDONLY | O_CLOEXEC),
+            out = open(log, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (in < 0 || out < 0) return errno;
+  if (dup2(in, STDIN_FILENO) < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(out, STDERR_FILENO) < 0)
+    return errno;
+  if (*directory != '\0' && chdir(directory) != 0) return errno;
+  execvpe(program, arguments, environment);
+  return errno;
+}
+
 /// Starts it as the leader of a group of its own; the error number, 0 when it runs.
 int start(const ChildCommand& command, pid_t& child) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
   const std::string log = command.log.empty() ? "/dev/null" : std::filesystem::absolute(command.log).string();
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  if (!command.directory.empty()) posix_spawn_file_actions_addchdir_np(&actions, command.directory.c_str());
-
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes,
-                           POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  sigset_t none, usual;
-  sigemptyset(&none);
-  sigemptyset(&usual);
-  for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGHUP}) sigaddset(&usual, signal);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &usual);
-
   const std::vector<std::string> environment = environment_with(command.environment);
-  const int error = posix_spawnp(&child, command.arguments.front().c_str(), &actions, &attributes,
-                                 pointers_to(command.arguments).data(), pointers_to(environment).data());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
+  const std::vector<char*> arguments = pointers_to(command.arguments), variables = pointers_to(environment);
+  const std::string directory = command.directory.string();
+  const pid_t parent = getpid();
+  int trouble[2];  // closed by a program that starts
+  if (pipe2(trouble, O_CLOEXEC) != 0) return errno;
+  sigset_t all, usual;  // our own handlers must not run in the child
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &usual);
+  child = fork();
+  if (child == 0) {
+    const int error =
+        become(arguments.front(), arguments.data(), variables.data(), directory.c_str(), log.c_str(), parent);
+    _exit(write(trouble[1], &error, sizeof error) == sizeof error ? 127 : 126);
+  }
+  int error = child < 0 ? errno : 0;
+  pthread_sigmask(SIG_SETMASK, &usual, nullptr);
+  close(trouble[1]);
+  if (child > 0) {
+    setpgid(child, child);  // whoever is first: nobody signals a group that is not there yet
+    while (read(trouble[0], &error, sizeof error) < 0 && errno == EINTR) {
+    }
+    if (error != 0) waitpid(child, nullptr, 0);
+  }
+  close(trouble[0]);
   return error;
 }
 

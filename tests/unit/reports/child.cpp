@@ -1,6 +1,8 @@
 #include "reports/process/child.hpp"
 
 #include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <stdexcept>
@@ -81,6 +83,25 @@ TEST_CASE("a child that is stopped, or leaves something behind, leaves no orphan
   const ChildEnd end = run_child(command);
   CHECK(end.stopped);
   CHECK(end.seconds < 5);
+}
+
+TEST_CASE("a child does not outlive a process that was killed outright") {
+  const ScratchDirectory scratch;
+  const pid_t parent = fork();
+  if (parent == 0) {
+    run_child(shell(scratch, "echo $$ > started; mv started inner; exec sleep 60"));
+    _exit(0);
+  }
+  const std::filesystem::path inner = scratch / "inner";
+  for (int i = 0; i < 250 && !std::filesystem::exists(inner); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  std::string pid = content_of(inner);
+  REQUIRE(!pid.empty());
+  pid.pop_back();
+  CHECK(lives(pid));
+  kill(parent, SIGKILL);
+  waitpid(parent, nullptr, 0);
+  CHECK(ends_soon(pid));
 }
 
 TEST_CASE("a command as typed is split as a shell would, and refused where it needs one") {
