@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <cstring>
 
-/// Included before everything in the copy of the source that plant-faults makes.
+/// Included before everything in the files of its copy of the source that plant-faults plants faults in.
 namespace mpm_faults {
 
 /// The fault that this process has; "" for none.

@@ -74,7 +74,8 @@ std::string switched(const Fault& fault) {
       return fault.right.substr(0, equals) + " = (" + on + " ? (" +
              fault.wrong.substr(equals + 3, fault.wrong.size() - equals - 4) + ") : (" +
              fault.right.substr(equals + 3, fault.right.size() - equals - 4) + "));";
-    return "if (" + on + ") {\n" + fault.wrong + "\n} else {\n" + fault.right + "\n}";
+    return "{\nif (" + on + ") {\n" + fault.wrong + "\n} else {\n" + fault.right +
+           "\n}\n}";  // braces: it may stand after an if
   }
   return "(" + on + " ? (" + fault.wrong + ") : (" + fault.right + "))";
 }
@@ -102,6 +103,7 @@ int main(int argc, char** argv) try {
       complaints += std::string(error.what()) + "\n";
     }
   if (!complaints.empty()) throw std::runtime_error(complaints);
+  for (auto& [file, text] : texts) text = "#include \"tests/faults/fault.hpp\"\n" + text;
   for (const char* part : {"CMakeLists.txt", "LICENSE", "README.md", "CHANGELOG.md", "CITATION.cff",
                            "packaging", "docs", "solver", "reference", "reports", "verification", "tests"}) {
     const auto copy = [&](const fs::path& file) {
