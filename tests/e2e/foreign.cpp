@@ -106,3 +106,33 @@ TEST_CASE("a time ladder of somebody's rows does not depend on their order") {
                  "sort -r) > {out}/p && mv {out}/p {out}/profile.csv; fi"));
   CHECK(in_order == shuffled);
 }
+
+TEST_CASE("locations are those that the solver delivers, in every run, unless the study says which") {
+  const ScratchDirectory scratch;
+  const std::string out = (scratch / "out").string();
+  const auto run = [&](const std::string& command) {
+    return run_program("run " + scratch.write("s.toml", solver(command)) + " --out " + out);
+  };
+  const Ended both = run(honest);
+  INFO(both.output);
+  CHECK(both.code == 0);
+  const std::string grid_alone =
+      "grep -v particles {out}/profile.csv > {out}/p && mv {out}/p {out}/profile.csv";
+  const Ended grid = run(edited(grid_alone));
+  INFO(grid.output);
+  CHECK(grid.code == 0);
+  CHECK(count(content_of(scratch / "out" / "checks.csv"), ", particles") == 0);
+  CHECK(count(content_of(scratch / "out" / "checks.csv"), ", grid") > 0);
+
+  // One level without its particles is a lack, not a study of the grid.
+  const Ended one = run(edited("if [ {cells} = 16 ]; then " + grid_alone + "; fi"));
+  INFO(one.output);
+  CHECK(one.code == 1);
+  CHECK_THAT(content_of(scratch / "out" / "checks.csv"), contains("nan"));
+
+  const Ended none = run(edited(
+      "sed s/grid/mesh/ {out}/profile.csv | grep -v particles > {out}/p && mv {out}/p {out}/profile.csv"));
+  INFO(none.output);
+  CHECK(none.code == 3);
+  CHECK_THAT(none.output, contains("found location 'mesh'; expected grid, particles"));
+}

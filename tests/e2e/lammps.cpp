@@ -9,7 +9,8 @@ namespace {
 const std::string adapter = MPM_ADAPTERS "/lammps/solve";
 
 /// Couette flow that has long been steady, judged where the particles of any solver stand.
-const std::string study = study_text("LAMMPS", "a steady Couette flow", couette_scene("cells = 8", "dt = 1e-3\noutputs = [4.0]") + R"(
+const std::string study = study_text("LAMMPS", "a steady Couette flow",
+                                     couette_scene("cells = 8", "dt = 1e-3\noutputs = [4.0]") + R"(
 [solver]
 command = ["sh", ")" + adapter + R"(", "{scene}", "{out}"]
 version = ["sh", ")" + adapter + R"(", "--version"]
@@ -27,7 +28,8 @@ title = "Theirs"
 location = "particles"
 )");
 
-/// A program that answers as LAMMPS does: the lattice of the input at the steady velocity, for every dump asked for.
+/// A program that answers as LAMMPS does: the lattice of the input at the steady velocity, for every dump
+/// asked for.
 const std::string stand_in = R"(#!/bin/sh
 if [ "$1" = -h ]; then
   echo 'Large-scale Atomic/Molecular Massively Parallel Simulator - 29 Aug 2024'
@@ -36,8 +38,8 @@ if [ "$1" = -h ]; then
 fi
 grep -q '^pair_style sph/taitwater/morris$' "$2" || exit 9
 for dump in $(sed -n 's/^write_dump .* \(dump[.0-9]*\) x y vx vy.*/\1/p' "$2"); do
-  awk '/^region box/ { length_x = $5; top = $7 } /^lattice/ { s = $3 } /^velocity above/ { plate = $4 }
-    /^region above/ { height = $7 }
+  awk '/^region box/ { length_x = $5 } /^lattice/ { s = $3 } /^velocity above/ { plate = $4 }
+    /^region above/ { height = $6 }
     END {
       for (k = 0; k < 5; ++k) print "ITEM"
       print "0 " length_x; print "-1 1"; print "-1 1"; print "ITEM: ATOMS"

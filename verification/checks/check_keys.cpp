@@ -30,6 +30,7 @@ void read_locations(TomlTable& table, const Study& study, CheckSpec& spec) {
     for (const Location location : study.solver->locations) delivered.push_back(name(location));
   }
   const std::vector<std::string> words = table.has("locations") ? table.texts("locations") : delivered;
+  spec.locations_by_default = !table.has("locations");
   if (words.empty()) table.fail("locations", "is empty: a check of nothing proves nothing");
   for (const std::string& word : words) {
     if (word != "grid" && word != "particles") table.fail("locations", "may hold \"grid\" and \"particles\"");

@@ -95,7 +95,7 @@ std::vector<Record> read_delivers(TomlTable& table) {
   return records;
 }
 
-/// Where results are there already, what the first of them holds; else both.
+/// Where results are there already, what the first of them holds; else empty.
 std::vector<std::string> delivered_locations(const ForeignSolver& solver) {
   const std::size_t mark = solver.results.find("{run}");
   if (mark != solver.results.npos) {
@@ -108,7 +108,7 @@ std::vector<std::string> delivered_locations(const ForeignSolver& solver) {
       if (!words.empty()) return words;
     }
   }
-  return {"grid", "particles"};
+  return {};
 }
 
 }  // namespace
@@ -133,8 +133,11 @@ ForeignSolver read_solver(TomlTable table, const std::filesystem::path& study_fi
   for (const std::string& key : environment.keys()) solver.environment[key] = environment.text(key);
   solver.timeout = table.positive("timeout", solver.timeout);
   solver.delivers = read_delivers(table);
-  for (const std::string& word :
-       table.has("locations") ? table.texts("locations") : delivered_locations(solver)) {
+  std::vector<std::string> words =
+      table.has("locations") ? table.texts("locations") : delivered_locations(solver);
+  solver.locations_known = table.has("locations") || !words.empty();
+  if (!solver.locations_known) words = {"grid", "particles"};
+  for (const std::string& word : words) {
     if (word != "grid" && word != "particles") table.fail("locations", "may hold \"grid\" and \"particles\"");
     solver.locations.push_back(word == "grid" ? Location::Grid : Location::Particles);
   }

@@ -35,6 +35,7 @@ reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long
 /// What a study's runs amount to.
 struct StudyData {
   const Study* study = nullptr;
+  std::shared_ptr<const Study> settled;  ///< *study, where its runs had a say in it (settle_locations)
   std::vector<RunData> runs;  ///< in the order of study->runs
   std::vector<reports::LevelRecord> levels;
   std::vector<reports::OrderRecord> orders;

@@ -34,7 +34,9 @@ struct ForeignSolver {
   std::map<std::string, std::string> environment;
   double timeout = 3600;            ///< of a run [s]
   std::vector<Record> delivers;     ///< always a profile
-  std::vector<Location> locations;  ///< of its profile
+  std::vector<Location> locations;  ///< of its profile; of those that it may hold where none is declared
+  /// Whether the study, or results that are there, say which; else what the runs deliver decides.
+  bool locations_known = true;
   int points_across = 0;            ///< fewest in a profile at each output; 0: as many as cells across
   std::string points_reason;        ///< why fewer than cells will do
 

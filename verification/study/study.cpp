@@ -54,4 +54,14 @@ std::vector<const PlannedRun*> Study::runs_of(const std::string& variant) const 
   return found;
 }
 
+Study Study::at_locations(const std::vector<Location>& at) const {
+  Study settled = *this;
+  settled.solver->locations = at;
+  settled.solver->locations_known = true;
+  for (CheckSpec& spec : settled.checks)
+    if (spec.locations_by_default)
+      std::erase_if(spec.locations, [&](Location location) { return std::ranges::count(at, location) == 0; });
+  return settled;
+}
+
 }  // namespace verification

@@ -76,6 +76,7 @@ struct CheckSpec {
   std::string kind;
   std::vector<std::string> variants;  ///< that it speaks of
   std::vector<Location> locations;
+  bool locations_by_default = false;  ///< all that are delivered, since it names none
   std::string norm;  ///< "l1", "l2", "linf"
   /// What errors are judged against: "" for the flow's own scale, "steady", "present", or "value".
   std::string relative_to;
@@ -138,6 +139,8 @@ struct Study {
   [[nodiscard]] double particle_steps() const;
   /// Runs of one variant, coarse to fine.
   [[nodiscard]] std::vector<const PlannedRun*> runs_of(const std::string& variant) const;
+  /// The study, judged at `locations` alone: those of its solver, and of every check that names none itself.
+  [[nodiscard]] Study at_locations(const std::vector<Location>& at) const;
 };
 
 }  // namespace verification

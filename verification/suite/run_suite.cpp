@@ -11,6 +11,7 @@
 #include "reports/files/io_error.hpp"
 #include "reports/records/result_files.hpp"
 #include "verification/checks/check_reader.hpp"
+#include "verification/runs/settle_locations.hpp"
 #include "verification/runs/foreign/run_foreign.hpp"
 #include "verification/runs/interruption.hpp"
 #include "verification/runs/measures.hpp"
@@ -229,6 +230,7 @@ class SuiteRunner {
 
   /// Without the lock: nobody else works on a study whose jobs have all ended.
   void conclude(StudyData& data) {
+    settle_locations(data);
     compare_with_finest(data);
     measure_orders(data);
     evaluate_checks(data);

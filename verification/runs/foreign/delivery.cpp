@@ -104,12 +104,25 @@ double output_time(const SceneConfig& scene, double t) {
   return best;
 }
 
+/// What the profile must hold: as declared, else whatever of "grid" and "particles" it does hold; that all
+/// runs of a study hold the same is seen where they come together (settle_locations).
+static std::vector<Location> expected_locations(const std::vector<reports::ProfileRow>& rows,
+                                                const ForeignSolver& solver) {
+  if (solver.locations_known) return solver.locations;
+  std::vector<Location> held;
+  for (const Location location : solver.locations)
+    if (std::ranges::any_of(rows, [&](const auto& row) { return row.location == name(location); }))
+      held.push_back(location);
+  return held.empty() ? solver.locations : held;
+}
+
 std::vector<std::string> shortcomings(const std::vector<reports::ProfileRow>& rows, const PlannedRun& plan,
                                       const ForeignSolver& solver) {
   std::vector<std::string> found;
   std::map<std::pair<std::string, double>, Rows> groups;
   std::set<double> times, strange_times;
   std::set<std::string> strange_locations;
+  const std::vector<Location> expected = expected_locations(rows, solver);
   for (const reports::ProfileRow& row : rows) {
     const double t = output_time(plan.scene, row.t);
     if (std::isnan(t)) {
@@ -117,8 +130,8 @@ std::vector<std::string> shortcomings(const std::vector<reports::ProfileRow>& ro
       continue;
     }
     times.insert(t);
-    const auto expected = [&](Location location) { return name(location) == row.location; };
-    if (std::ranges::none_of(solver.locations, expected))
+    const auto is_its = [&](Location location) { return name(location) == row.location; };
+    if (std::ranges::none_of(expected, is_its))
       strange_locations.insert(row.location);
     else
       groups[{row.location, t}].push_back(&row);
@@ -136,10 +149,10 @@ std::vector<std::string> shortcomings(const std::vector<reports::ProfileRow>& ro
   }
   for (const std::string& location : strange_locations) {
     std::vector<std::string> names;
-    for (const Location known : solver.locations) names.push_back(name(known));
+    for (const Location known : expected) names.push_back(name(known));
     found.push_back(fmt::format("found location '{}'; expected {}", location, fmt::join(names, ", ")));
   }
-  for (const Location location : solver.locations)
+  for (const Location location : expected)
     for (const double t : plan.scene.outputs) {
       const auto group = groups.find({name(location), t});
       if (group == groups.end()) {

@@ -76,6 +76,7 @@ std::string version_of(const ForeignSolver& solver) {
       fs::temp_directory_path() / fmt::format("mpm-verify-{}-{}.txt", getpid(), reports::content_name(key));
   command.stop = interruption_noted;
   const reports::ChildEnd end = reports::run_child(command);
+  const std::string last = reports::last_lines(command.log, 3);
   std::ifstream log(command.log);
   std::stringstream in;
   in << log.rdbuf();
@@ -83,7 +84,8 @@ std::string version_of(const ForeignSolver& solver) {
   fs::remove(command.log, ignored);
   throw_if_interrupted();
   if (!end.well())
-    throw std::runtime_error(fmt::format("{}: the command of solver.version: {}", solver.name, end.text()));
+    throw std::runtime_error(fmt::format("{}: the command of solver.version: {}{}{}", solver.name, end.text(),
+                                         last.empty() ? "" : "; it said: ", last));
   std::string line;
   while (std::getline(in, line)) {
     const std::size_t begin = line.find_first_not_of(" \t\r");
