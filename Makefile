@@ -9,8 +9,9 @@ PDF     := $(if $(shell command -v chromium || command -v chromium-browser || co
 
 # Seconds that `make fuzz` gives each of its three harnesses.
 FUZZ_SECONDS ?= 60
+FUZZ_COUNT ?= 5000
 
-.PHONY: verify verify-quick verify-deep verify-peers verify-slurm test bench fuzz fuzz-mutations faults package program packages configure clean
+.PHONY: verify verify-quick verify-deep verify-peers verify-slurm test bench fuzz fuzz-mutations fuzz-sanitized faults package program packages configure clean
 
 verify: program
 	$(PROGRAM) run --suite full --out $(RESULTS) $(PDF)
@@ -43,15 +44,25 @@ fuzz: packages
 	cmake --build build-fuzz --target fuzz-scene fuzz-study fuzz-csv
 	sh tests/fuzz/run-fuzz build-fuzz/tests $(FUZZ_SECONDS)
 
-# The same readers by mutations of what is shipped, with the compiler that is there: a third of FUZZ_SECONDS each. Other
-# inputs for every commit; what goes wrong is left in $(BUILD)/fuzzed-input.
+# The same readers by mutations of what is shipped, in the build $(1): $(2) of them each, or $(2) = 20s as many as there is time for.
+# Other inputs for every commit; what goes wrong is left in $(1)/fuzzed-input.
+define mutate
+	cmake --build $(1) --target fuzzed-scene fuzzed-study fuzzed-csv
+	cd $(1) && export MPM_FUZZ_SEED=$$(git -C $(CURDIR) rev-list --count HEAD 2> /dev/null || echo 1); \
+	toml="$(CURDIR)/verification/scenes/*.toml $(CURDIR)/tests/fuzz/corpus/*.toml"; \
+	tests/fuzzed-scene $(2) $$toml && \
+	tests/fuzzed-study $(2) $$toml $$(find $(CURDIR)/verification/studies -name '*.toml') && \
+	tests/fuzzed-csv $(2) $(CURDIR)/tests/fuzz/corpus/*.csv
+endef
+
+# With the compiler that is there: a third of FUZZ_SECONDS each.
 fuzz-mutations: configure
-	cmake --build $(BUILD) --target fuzzed-scene fuzzed-study fuzzed-csv
-	cd $(BUILD) && export MPM_FUZZ_SEED=$$(git -C $(CURDIR) rev-list --count HEAD 2> /dev/null || echo 1); \
-	third=$$(($(FUZZ_SECONDS) / 3))s; toml="$(CURDIR)/verification/scenes/*.toml $(CURDIR)/tests/fuzz/corpus/*.toml"; \
-	tests/fuzzed-scene $$third $$toml && \
-	tests/fuzzed-study $$third $$toml $$(find $(CURDIR)/verification/studies -name '*.toml') && \
-	tests/fuzzed-csv $$third $(CURDIR)/tests/fuzz/corpus/*.csv
+	$(call mutate,$(BUILD),$$(($(FUZZ_SECONDS) / 3))s)
+
+# Under AddressSanitizer and UndefinedBehaviorSanitizer: FUZZ_COUNT mutations each.
+fuzz-sanitized: packages
+	cmake --preset sanitize
+	$(call mutate,build-sanitize,$(FUZZ_COUNT))
 
 faults: configure
 	cmake --build $(BUILD) --target plant-faults
