@@ -23,6 +23,12 @@ class Axis {
   /// linear field reproduce it. Images of a periodic function keep their own, outside [0, length] at its
   /// ends.
   [[nodiscard]] double control_point(int k) const { return control_point_[static_cast<std::size_t>(k)]; }
+  /// The control point of a cell's k-th function in cells from where the cell begins. The same to the bit in
+  /// all cells far from a wall: knots are whole numbers of cells, so a mean of `degree` of them is a multiple
+  /// of 1/degree.
+  [[nodiscard]] double control_place(int cell, int k) const {
+    return std::round((control_point(cell + k) * inverse_h - cell) * degree) / degree;
+  }
   /// Polynomials of the degree + 1 functions in a cell: the coefficient of s^m of the k-th stands at
   /// m * (degree + 1) + k, with s in [0, 1] across the cell.
   [[nodiscard]] const double* polynomials(int cell) const {

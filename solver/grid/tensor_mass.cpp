@@ -1,16 +1,14 @@
 #include "solver/grid/tensor_mass.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <algorithm>
 
 #include "solver/scene/seeding.hpp"
 
 namespace mpm {
-namespace {
 
-/// integral of N_i N_j over an axis, by a Gauss rule that is exact for it.
 Eigen::MatrixXd mass_along(const Axis& axis) {
+  // A rule that is exact for it.
   const CellPoints points = cell_points(Seeding::Rule::Gauss, axis.degree + 1);
   const int support = axis.degree + 1;
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(axis.count(), axis.count());
@@ -31,6 +29,8 @@ Eigen::MatrixXd mass_along(const Axis& axis) {
     }
   return mass;
 }
+
+namespace {
 
 /// to(j, i) = from(i, j), a few rows at a time: the cache lines read and written are then used whole.
 void transpose(const VectorField& from, std::size_t rows, std::size_t columns, VectorField& to) {

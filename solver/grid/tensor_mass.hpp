@@ -1,10 +1,14 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "solver/grid/grid.hpp"
 
 namespace mpm {
+
+/// integral of N_i N_j over an axis [m].
+Eigen::MatrixXd mass_along(const Axis& axis);
 
 /// The mass matrix of a fluid of uniform density on a grid of B-splines is a tensor product M_x (x) M_y of
 /// two banded matrices, so its inverse costs no more than a few operations a node. Scaled to the diagonal of

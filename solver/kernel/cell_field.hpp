@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/kernel/affine_field.hpp"
 #include "solver/kernel/cell_weights.hpp"
 
 namespace mpm::MPM_ISA {
@@ -33,6 +34,26 @@ class CellField {
       Lanes u = 0;
       unroll<Basis::support[1]>(
           [&](int l) { u += n_p.across.value[l] * along_row<Basis>(u_, l, n_p.along.value); });
+      return u;
+    }
+  }
+
+  /// u(x_p), and the change across a cell along either axis of the affine field that stands for u about x_p.
+  struct Affinely {
+    Lanes value, change[2];
+  };
+  [[nodiscard]] Affinely affinely_at(const CellWeights<Basis>& n_p, const CellMoments<Basis>& m_p) const {
+    if constexpr (Basis::is_bilinear) {
+      const Lanes along = u_[1] + n_p.t * u_[3];
+      return {(u_[0] + n_p.t * u_[2]) + n_p.s * along, {along, u_[2] + n_p.s * u_[3]}};
+    } else {
+      Affinely u{0, {0, 0}};
+      unroll<Basis::support[1]>([&](int l) {
+        const Lanes row = along_row<Basis>(u_, l, n_p.along.value);
+        u.value += n_p.across.value[l] * row;
+        u.change[0] += n_p.across.value[l] * along_row<Basis>(u_, l, m_p.along.moment);
+        u.change[1] += m_p.across.moment[l] * row;
+      });
       return u;
     }
   }

@@ -2,12 +2,14 @@
 
 #include <array>
 
+#include "solver/kernel/affine_field.hpp"
 #include "solver/kernel/cell_weights.hpp"
 
 namespace mpm::MPM_ISA {
 
 /// Transpose of CellField: what the particles of a block bring to the nodes of their cells of
-/// momentum, sum_p N_ip m_p v_p, and before it, if asked for, of mass, sum_p N_ip m_p.
+/// momentum, sum_p N_ip m_p v_p, and before it, if asked for, of mass, sum_p N_ip m_p. Of particles with an
+/// affine field v_p is its value at the node.
 template <class Basis, bool with_mass>
 class MomentumSums {
  public:
@@ -18,6 +20,14 @@ class MomentumSums {
       if constexpr (with_mass) sum_[0][i] += n_m;
       sum_[fields - 2][i] += n_m * v[0];
       sum_[fields - 1][i] += n_m * v[1];
+    });
+  }
+
+  void add(const CellWeights<Basis>& n_p, Lanes m, const AffineVelocity<Basis>& v) {
+    n_p.values_times(m, [&](int i, Lanes n_m) {
+      if constexpr (with_mass) sum_[0][i] += n_m;
+      sum_[fields - 2][i] += n_m * v.at(0, i);
+      sum_[fields - 1][i] += n_m * v.at(1, i);
     });
   }
 

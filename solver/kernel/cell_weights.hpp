@@ -61,8 +61,8 @@ struct TensorWeights {
 
   /// s: their places in the cells
   TensorWeights(const Basis& basis, const Block& block, const Lanes s[2])
-      : along(s[0], basis.inverse_h[0], block.polynomials[0]),
-        across(s[1], basis.inverse_h[1], block.polynomials[1]) {}
+      : along(s[0], basis.inverse_h[0], block.functions[0]),
+        across(s[1], basis.inverse_h[1], block.functions[1]) {}
 
   /// visit(i, q N_i)
   template <class Visit>

@@ -29,6 +29,12 @@ struct Stress {
   }
 };
 
+/// Affine field of a slot's particles: C_ab times the size of a cell along b, the change of v_a across a
+/// cell [m/s]. Only particles of APIC have one.
+struct Affine {
+  Lanes c[2][2];
+};
+
 /// What a slot's particles were called when they came.
 struct Names {
   int of[width];
@@ -36,11 +42,11 @@ struct Names {
 
 /// `width` neighbouring cells and their particles: those of a cell fill the first slots of its lane.
 struct Block {
-  int first_node;               ///< of the first cell
-  int count[width] = {};        ///< particles a cell
-  const Lanes* polynomials[2];  ///< of the basis in these cells: Axis::polynomials across lanes
-  std::size_t first_slot;       ///< in the store of all slots
-  int size = 0, capacity = 0;   ///< slots in use, slots reserved
+  int first_node;              ///< of the first cell
+  int count[width] = {};       ///< particles a cell
+  const Lanes* functions[2];   ///< of the basis in these cells: LineOfCells::functions across lanes
+  std::size_t first_slot;      ///< in the store of all slots
+  int size = 0, capacity = 0;  ///< slots in use, slots reserved
 };
 
 struct Address {
@@ -51,13 +57,14 @@ struct Address {
 /// numbers between rows belong to no cell and stay empty, so that a block may run on into the next row.
 class Cells {
  public:
-  explicit Cells(const KernelSetup& setup)
-      : axis_(setup.axis), stride_(setup.axis[0].cells + setup.degree), degree_(setup.degree) {
+  /// `stride` from a row of cells to the next.
+  Cells(const KernelSetup& setup, int stride)
+      : axis_(setup.axis), stride_(stride), degree_(setup.degree), is_affine_(setup.is_affine) {
     blocks_.resize(static_cast<std::size_t>((stride_ * axis_[1].cells + width - 1) / width));
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       Block& block = blocks_[b];
       block.first_node = static_cast<int>(b) * width;
-      for (int a : {0, 1}) block.polynomials[a] = polynomials_across(block, a);
+      for (int a : {0, 1}) block.functions[a] = functions_across(block, a);
     }
     for (std::size_t p = 0; p < setup.count; ++p) {
       const int number = place_of(setup.points[p]).number(stride_);
@@ -84,6 +91,11 @@ class Cells {
       stress.s_00[to.lane] = s_00;
       stress.s_11[to.lane] = s_11;
       stress.s_01[to.lane] = s_01;
+      if (!is_affine_) continue;
+      for (int c : {0, 1})
+        for (int a : {0, 1})
+          affines_[index_of(to)].c[c][a][to.lane] =
+              point.affine[c][a] / axis_[static_cast<std::size_t>(a)].inverse_h;
     }
   }
 
@@ -106,8 +118,24 @@ class Cells {
   [[nodiscard]] std::span<Stress> stresses(const Block& block) {
     return {stresses_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
   }
+  /// Empty unless particles carry an affine field.
+  [[nodiscard]] std::span<Affine> affines(const Block& block) {
+    return {affines_.data() + block.first_slot, is_affine_ ? static_cast<std::size_t>(block.size) : 0};
+  }
+  [[nodiscard]] bool is_affine() const { return is_affine_; }
   [[nodiscard]] std::span<const Slot> slots(const Block& block) const {
     return {slots_.data() + block.first_slot, static_cast<std::size_t>(block.size)};
+  }
+
+  /// Adds the particles of a block that are no longer in their cells to a list.
+  [[gnu::noinline]] void list_movers(const Block& block, std::vector<Address>& list) const {
+    for (int lane = 0; lane < width; ++lane)
+      for (int k = 0; k < block.count[lane]; ++k) {
+        const Slot& slot = slots(block)[static_cast<std::size_t>(k)];
+        bool stays = true;
+        for (const Lanes& s : slot.s) stays &= s[lane] >= 0 && s[lane] < 1;
+        if (!stays) list.push_back({block.first_node / width, lane, k});
+      }
   }
 
   /// Puts particles that left their cell into the one where they are, around periodic sides. `movers` in the
@@ -143,12 +171,18 @@ class Cells {
           const std::size_t at = block.first_slot + static_cast<std::size_t>(k);
           const Slot& slot = slots_[at];
           const Stress& stress = stresses_[at];
-          points[names_[at].of[lane]] = {{coordinate(axis_[0], number % stride_, slot.s[0][lane]),
-                                          coordinate(axis_[1], number / stride_, slot.s[1][lane])},
-                                         {slot.v[0][lane], slot.v[1][lane]},
-                                         slot.mass[lane],
-                                         slot.mass[lane] / slot.volume[lane],
-                                         {stress.s_00[lane], stress.s_11[lane], stress.s_01[lane]}};
+          PointState& point = points[names_[at].of[lane]];
+          point = {{coordinate(axis_[0], number % stride_, slot.s[0][lane]),
+                    coordinate(axis_[1], number / stride_, slot.s[1][lane])},
+                   {slot.v[0][lane], slot.v[1][lane]},
+                   slot.mass[lane],
+                   slot.mass[lane] / slot.volume[lane],
+                   {stress.s_00[lane], stress.s_11[lane], stress.s_01[lane]},
+                   {}};
+          if (!is_affine_) continue;
+          for (int c : {0, 1})
+            for (int a : {0, 1})
+              point.affine[c][a] = affines_[at].c[c][a][lane] * axis_[static_cast<std::size_t>(a)].inverse_h;
         }
   }
 
@@ -216,6 +250,7 @@ class Cells {
       ++block.size;
       slot_at(at) = empty_slot();
       stresses_[index_of(at)] = {0, 0, 0};
+      if (is_affine_) affines_[index_of(at)] = {{{0, 0}, {0, 0}}};
     }
     return at;
   }
@@ -232,6 +267,7 @@ class Cells {
     };
     move(slots_);
     move(stresses_);
+    if (is_affine_) move(affines_);
     move(names_);
     block.first_slot = end_;
     end_ += static_cast<std::size_t>(block.capacity);
@@ -243,12 +279,14 @@ class Cells {
     for (const Block& block : blocks_) total += static_cast<std::size_t>(block.capacity);
     LargeArray<Slot> slots(total + total / 4 + 16);
     LargeArray<Stress> stresses(slots.size());
+    LargeArray<Affine> affines(is_affine_ ? slots.size() : 0);
     LargeArray<Names> names(slots.size());
     end_ = 0;
     for (Block& block : blocks_) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(block.size); ++k) {
         slots[end_ + k] = slots_[block.first_slot + k];
         stresses[end_ + k] = stresses_[block.first_slot + k];
+        if (is_affine_) affines[end_ + k] = affines_[block.first_slot + k];
         names[end_ + k] = names_[block.first_slot + k];
       }
       block.first_slot = end_;
@@ -256,6 +294,7 @@ class Cells {
     }
     slots_.swap(slots);
     stresses_.swap(stresses);
+    affines_.swap(affines);
     names_.swap(names);
   }
 
@@ -276,6 +315,10 @@ class Cells {
     copied.s_11[to.lane] = stress.s_11[from.lane];
     copied.s_01[to.lane] = stress.s_01[from.lane];
     name_at(to) = name_at(from);
+    if (!is_affine_) return;
+    for (int c : {0, 1})
+      for (int a : {0, 1})
+        affines_[index_of(to)].c[c][a][to.lane] = affines_[index_of(from)].c[c][a][from.lane];
   }
 
   static void copy_lane(const Slot& from, Slot& to, int from_lane, int to_lane) {
@@ -289,18 +332,18 @@ class Cells {
 
   static Slot empty_slot() { return {{0.5, 0.5}, {0, 0}, 0, 0}; }
 
-  /// Polynomials of a block's cells along an axis. Most blocks share theirs with others.
-  const Lanes* polynomials_across(const Block& block, int a) {
-    const int size = (degree_ + 1) * (degree_ + 1);
+  /// The functions of a block's cells along an axis. Most blocks share theirs with others.
+  const Lanes* functions_across(const Block& block, int a) {
+    const int size = (degree_ + 1) * (degree_ + 2);
     std::vector<Lanes> across(static_cast<std::size_t>(size));
     for (int m = 0; m < size; ++m)
       for (int lane = 0; lane < width; ++lane)
         across[static_cast<std::size_t>(m)][lane] =
-            axis_[static_cast<std::size_t>(a)].polynomials[cell_along(block.first_node + lane, a) * size + m];
-    for (const auto& known : polynomials_)
+            axis_[static_cast<std::size_t>(a)].functions[cell_along(block.first_node + lane, a) * size + m];
+    for (const auto& known : functions_)
       if (std::memcmp(known.data(), across.data(), across.size() * sizeof(Lanes)) == 0) return known.data();
-    polynomials_.push_back(std::move(across));
-    return polynomials_.back().data();
+    functions_.push_back(std::move(across));
+    return functions_.back().data();
   }
 
   /// Numbers that belong to no cell take the nearest, so that their arithmetic stays harmless.
@@ -311,13 +354,15 @@ class Cells {
 
   std::array<LineOfCells, 2> axis_;
   int stride_, degree_;
+  bool is_affine_;
   LargeArray<Block> blocks_;
   LargeArray<Slot> slots_;  // of one block after another
   LargeArray<Stress> stresses_;
+  LargeArray<Affine> affines_;
   LargeArray<Names> names_;
   std::size_t most_slots_ = 0;
   std::size_t end_ = 0;  // of the slots that blocks have reserved
-  std::vector<std::vector<Lanes>> polynomials_;
+  std::vector<std::vector<Lanes>> functions_;
 };
 
 }  // namespace mpm::MPM_ISA

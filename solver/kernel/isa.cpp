@@ -10,16 +10,19 @@ namespace mpm {
 
 namespace baseline {
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
-}
+std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup);
+}  // namespace baseline
 #ifdef MPM_KERNEL_AVX2
 namespace avx2 {
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
-}
+std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup);
+}  // namespace avx2
 #endif
 #ifdef MPM_KERNEL_AVX512
 namespace avx512 {
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
-}
+std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup);
+}  // namespace avx512
 #endif
 
 namespace {
@@ -27,19 +30,20 @@ namespace {
 struct Isa {
   std::string name;
   std::unique_ptr<Kernel> (*make)(const KernelSetup&);
+  std::unique_ptr<FullMassKernel> (*make_full_mass)(const FullMassSetup&);
 };
 
 std::vector<Isa> isas() {
-  std::vector<Isa> found{{"baseline", baseline::make_kernel}};
+  std::vector<Isa> found{{"baseline", baseline::make_kernel, baseline::make_full_mass_kernel}};
 #ifdef MPM_KERNEL_AVX2
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
-    found.push_back({"avx2", avx2::make_kernel});
+    found.push_back({"avx2", avx2::make_kernel, avx2::make_full_mass_kernel});
 #endif
 #ifdef MPM_KERNEL_AVX512
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl"))
-    found.push_back({"avx512", avx512::make_kernel});
+    found.push_back({"avx512", avx512::make_kernel, avx512::make_full_mass_kernel});
 #endif
   return found;
 }
@@ -102,6 +106,10 @@ void use_threads(int threads) {
 
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup) {
   return current().make(setup);
+}
+
+std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup) {
+  return current().make_full_mass(setup);
 }
 
 }  // namespace mpm

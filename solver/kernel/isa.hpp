@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/kernel/full_mass/full_mass_kernel.hpp"
 #include "solver/kernel/kernel.hpp"
 
 namespace mpm {
@@ -24,7 +25,8 @@ void use_isa(const std::string& name);
 int default_threads();
 void use_threads(int threads);
 
-/// A kernel of the current instruction set.
+/// Kernels of the current instruction set.
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
+std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup);
 
 }  // namespace mpm

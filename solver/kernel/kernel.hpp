@@ -17,7 +17,8 @@ namespace mpm {
 struct PointState {
   double position[2], velocity[2];
   double mass, density;
-  double stress[3];  ///< sigma_00, sigma_11, sigma_01
+  double stress[3];     ///< sigma_00, sigma_11, sigma_01
+  double affine[2][2];  ///< C_ab of its affine field, APIC alone [1/s]
 };
 
 /// One direction of the grid: Axis as plain data.
@@ -25,8 +26,8 @@ struct LineOfCells {
   int cells;
   bool periodic;
   double length, inverse_h;
-  /// Axis::polynomials of every cell, one set after another.
-  const double* polynomials;
+  /// Of every cell, one after another: Axis::polynomials, then Axis::control_place of its functions.
+  const double* functions;
 };
 
 /// Nodal fields. Nodes are numbered n = row * stride + i with i counted along the axis (Axis::function), so
@@ -80,7 +81,8 @@ class Kernel {
   virtual void accelerate(const Part&, const double body_acceleration[2], double dt) = 0;
   /// update_stress() from the current velocity and accelerate() in one; the stress is not kept.
   virtual void update_stress_and_accelerate(const Part&, const double body_acceleration[2], double dt) = 0;
-  /// G2P: FLIP, PIC or a mean of the two: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p).
+  /// G2P: FLIP, PIC or a mean of the two: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p). Particles that
+  /// carry an affine field take v(x_p) and C_p, whatever the fraction.
   virtual void take(const Part&, double flip_fraction, double dt) = 0;
   /// Moves the particles with the nodal velocity.
   virtual void move(const Part&, double dt) = 0;
@@ -98,6 +100,7 @@ struct KernelSetup {
   bool strip;  ///< one periodic cell across the lanes, in which nothing varies
   std::array<LineOfCells, 2> axis;
   Rheology rheology;
+  bool is_affine;  ///< particles carry an affine field (APIC)
   bool has_pressure;
   bool has_cell_pressure;  ///< one density a cell
   CellTaitPressure pressure;

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "solver/kernel/cell_field.hpp"
+#include "solver/kernel/cell_stress.hpp"
 #include "solver/kernel/nodal_fields.hpp"
 #include "solver/kernel/node_sums.hpp"
 
@@ -13,7 +14,7 @@ template <class Basis>
 class LaneKernel final : public Kernel {
  public:
   explicit LaneKernel(const KernelSetup& setup)
-      : cells_(setup),
+      : cells_(setup, setup.axis[0].cells + setup.degree),
         basis_{{setup.axis[0].inverse_h, setup.axis[1].inverse_h}, cells_.stride()},
         fields_(fields_of(setup)),
         rheology_(setup.rheology),
@@ -34,12 +35,7 @@ class LaneKernel final : public Kernel {
   void map_velocity(const Part& part) override {
     double* const m_i = fields_.inverse_mass();
     const Pair v_i = fields_.velocity();
-    scatter<MomentumSums<Basis, true>>(part, {m_i, v_i[0], v_i[1]}, [&](const Block& block, auto& sums) {
-      if (part.ahead > 0) fields_.fetch(block.first_node + part.ahead);
-      each_slot<no_fetch>(block, part, [&](int, const Slot& p, const CellWeights<Basis>& n_p) {
-        sums.add(n_p, p.mass, p.v);
-      });
-    });
+    sum_momentum<true>(part, {m_i, v_i[0], v_i[1]});
     fields_.each_node(part.complete, [=](int i, auto count) {
       const Lanes m = load(m_i + i), one_over_m = select(m > 0, 1 / m, 0);
       store_first(count, m_i + i, one_over_m);
@@ -49,11 +45,7 @@ class LaneKernel final : public Kernel {
 
   void map_updated_velocity(const Part& part) override {
     const Pair v_i = fields_.mapped();
-    scatter<MomentumSums<Basis, false>>(part, v_i, [&](const Block& block, auto& sums) {
-      each_slot<no_fetch>(block, part, [&](int, const Slot& p, const CellWeights<Basis>& n_p) {
-        sums.add(n_p, p.mass, p.v);
-      });
-    });
+    sum_momentum<false>(part, v_i);
     fields_.each_node(part.complete, [=, one_over_m = fields_.inverse_mass()](int i, auto count) {
       for (double* v : v_i) store_first(count, v + i, load(v + i) * load(one_over_m + i));
     });
@@ -96,14 +88,18 @@ class LaneKernel final : public Kernel {
   }
 
   void take(const Part& part, double flip_fraction, double dt) override {
-    if (flip_fraction == 1)
+    if (cells_.is_affine())
+      gather_from_nodes<Take::Affine, false>(part, 0, dt);
+    else if (flip_fraction == 1)
       gather_from_nodes<Take::Flip, false>(part, 1, dt);
     else
       gather_from_nodes<Take::Blend, false>(part, flip_fraction, dt);
   }
   void move(const Part& part, double dt) override { gather_from_nodes<Take::Nothing, true>(part, 0, dt); }
   void take_and_move(const Part& part, double flip_fraction, double dt) override {
-    if (flip_fraction == 1)
+    if (cells_.is_affine())
+      gather_from_nodes<Take::Affine, true>(part, 0, dt);
+    else if (flip_fraction == 1)
       gather_from_nodes<Take::Flip, true>(part, 1, dt);
     else
       gather_from_nodes<Take::Blend, true>(part, flip_fraction, dt);
@@ -134,12 +130,6 @@ class LaneKernel final : public Kernel {
   };
   static constexpr Fetch no_fetch{0, 0}, fetch_by_forces{0, 4}, fetch_by_g2p{4, 2};
 
-  /// Strain rate of a slot's particles [1/s]: du_0/dx_0, du_1/dx_1, du_0/dx_1 + du_1/dx_0; density [kg/m3],
-  /// where it varies.
-  struct Strained {
-    Lanes d_00, d_11, shear, density;
-  };
-
   /// What belongs to a share of the cells alone, so that threads need not agree.
   struct alignas(64) Share {
     Lanes energy = 0, least_volume = 0;  // that its particles were found to have
@@ -164,6 +154,25 @@ class LaneKernel final : public Kernel {
             rows,
             cells_.stride(),
             static_cast<std::size_t>(size)};
+  }
+
+  /// Nodal momenta, and masses before them, if asked for.
+  template <bool with_mass>
+  void sum_momentum(const Part& part, const std::array<double*, with_mass ? 3 : 2>& nodes) {
+    const auto sum = [&](const auto& velocity_of) {
+      scatter<MomentumSums<Basis, with_mass>>(part, nodes, [&](const Block& block, auto& sums) {
+        if (with_mass && part.ahead > 0) fields_.fetch(block.first_node + part.ahead);
+        each_slot<no_fetch>(block, part, [&](int k, const Slot& p, const CellWeights<Basis>& n_p) {
+          sums.add(n_p, p.mass, velocity_of(block, k, p));
+        });
+      });
+    };
+    if (cells_.is_affine())
+      sum([&](const Block& block, int k, const Slot& p) {
+        return AffineVelocity<Basis>(block, p, cells_.affines(block)[static_cast<std::size_t>(k)]);
+      });
+    else
+      sum([](const Block&, int, const Slot& p) -> const auto& { return p.v; });
   }
 
   /// Strain rates from the nodal velocity, volumes V (1 + dt tr D), then visit(k, slot, strained, weights).
@@ -222,21 +231,6 @@ class LaneKernel final : public Kernel {
   /// -V_p: times sigma_p grad N_ip it is the particle's share of f_i (paper Eq. 17); V_p = m_p/rho_p.
   static Lanes force_factor(const Slot& p) { return 0 - p.volume; }
 
-  /// factor sigma with sigma = 2 mu D - (2/3 mu tr D + P) I (paper Eqs. 21 to 25).
-  template <class Law, class Pressure>
-  static Stress stress_of(const Strained& p, const Law& law, const Pressure& pressure, Lanes factor) {
-    Lanes mu;
-    if constexpr (Law::needs_shear_rate)
-      mu = law.viscosity(2 * (p.d_00 * p.d_00 + p.d_11 * p.d_11) + p.shear * p.shear);
-    else
-      mu = law.viscosity();
-    Lanes isotropic = -(2.0 / 3.0) * mu * (p.d_00 + p.d_11);
-    if constexpr (Pressure::varies) isotropic = isotropic - pressure.pressure(p.density);
-    isotropic = factor * isotropic;
-    mu = factor * mu;
-    return {2 * mu * p.d_00 + isotropic, 2 * mu * p.d_11 + isotropic, mu * p.shear};
-  }
-
   /// What the stress of a block's particles gives to the nodes of their cells. With a pressure of cells the
   /// mean stress acts at their centres.
   template <class Pressure>
@@ -291,9 +285,10 @@ class LaneKernel final : public Kernel {
     });
   }
 
-  enum class Take { Nothing, Flip, Blend };
+  enum class Take { Nothing, Flip, Blend, Affine };
 
-  /// G2P: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p); x_p += dt v(x_p) (paper Eqs. 18-20).
+  /// G2P: v_p = flip (v_p + dt a(x_p)) + (1 - flip) v(x_p); x_p += dt v(x_p) (paper Eqs. 18-20). Affine: v_p
+  /// = v(x_p), and C_p.
   template <Take taken, bool moves>
   void gather_from_nodes(const Part& part, [[maybe_unused]] double flip, double dt) {
     Share& share = shares_[static_cast<std::size_t>(part.share)];
@@ -302,7 +297,16 @@ class LaneKernel final : public Kernel {
       const CellVelocity<Basis> v(basis_, block, fields_.velocity());
       const CellVelocity<Basis> a(basis_, block, fields_.acceleration());
       Lanes energy = 0, lowest = 0, highest = 0;
-      const auto take = [&](int, Slot& p, const CellWeights<Basis>& n_p) {
+      const auto take = [&]([[maybe_unused]] int k, Slot& p, const CellWeights<Basis>& n_p) {
+        if constexpr (taken == Take::Affine) {
+          const CellMoments<Basis> m_p(basis_, block, p, n_p);
+          Affine& affine = cells_.affines(block)[static_cast<std::size_t>(k)];
+          for (int c : {0, 1}) {
+            const auto u = v[c].affinely_at(n_p, m_p);
+            p.v[c] = u.value;
+            for (int axis : {0, 1}) affine.c[c][axis] = u.change[axis];
+          }
+        }
         for (int c : {0, 1}) {
           if constexpr (taken == Take::Flip) p.v[c] += dt * a[c].at(n_p);
           if constexpr (taken == Take::Blend)
@@ -312,7 +316,8 @@ class LaneKernel final : public Kernel {
       };
       const auto move = [&](int, Slot& p, const CellWeights<Basis>& n_p) {
         for (int c : {0, 1}) {
-          p.s[c] = select(p.mass > 0, p.s[c] + cells_a_step[c] * v[c].at(n_p), p.s[c]);
+          const Lanes of_grid = taken == Take::Affine ? p.v[c] : v[c].at(n_p);
+          p.s[c] = select(p.mass > 0, p.s[c] + cells_a_step[c] * of_grid, p.s[c]);
           lowest = least(lowest, p.s[c]);
           highest = largest(highest, p.s[c]);
         }
@@ -324,19 +329,8 @@ class LaneKernel final : public Kernel {
       else
         each_slot<fetch_by_g2p>(block, part, take, move);
       share.energy += energy;
-      if (((lowest < 0) | (highest >= 1)).any()) list_movers(block, share.left);
+      if (((lowest < 0) | (highest >= 1)).any()) cells_.list_movers(block, share.left);
     });
-  }
-
-  /// Adds the particles of a block that are no longer in their cells to a list.
-  [[gnu::noinline]] void list_movers(const Block& block, std::vector<Address>& list) const {
-    for (int lane = 0; lane < width; ++lane)
-      for (int k = 0; k < block.count[lane]; ++k) {
-        const Slot& slot = cells_.slots(block)[static_cast<std::size_t>(k)];
-        bool stays = true;
-        for (const Lanes& s : slot.s) stays &= s[lane] >= 0 && s[lane] < 1;
-        if (!stays) list.push_back({block.first_node / width, lane, k});
-      }
   }
 
   /// Sums what the particles of a part give to nodes, those of their cells: give(block, sums) adds the share

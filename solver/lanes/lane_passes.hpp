@@ -2,11 +2,13 @@
 
 #include "solver/grid/stencil.hpp"
 #include "solver/kernel/isa.hpp"
+#include "solver/lanes/lane_particles.hpp"
 #include "solver/lanes/lane_walls.hpp"
 #include "solver/particles.hpp"
 #include "solver/scene/seeding.hpp"
 #include "solver/step/explicit_steps.hpp"
 #include "solver/transfer/motion.hpp"
+#include "solver/transfer/transfer.hpp"
 
 namespace mpm {
 
@@ -20,6 +22,7 @@ class LanePasses {
         stepping_(scheme.stepping),
         dilatation_(scheme.dilatation),
         flip_fraction_(flip_fraction),
+        is_affine_(scheme.transfer == Scheme::Transfer::Apic),
         grid_(scene_, Basis::degree),
         layout_(scene_, grid_, Basis::degree),
         team_(threads),
@@ -154,26 +157,25 @@ class LanePasses {
   [[nodiscard]] Particles started_particles() const {
     Particles particles = seed_particles(scene_);
     const VectorField jump = wall_nodes_.initial_jump(grid_);
-    for (std::size_t p = 0; p < particles.size(); ++p)
-      particles.velocity[p] += interpolate<Basis>(grid_, jump, particles.position[p]);
+    if (is_affine_) particles.affine = initial_gradients(scene_, particles);
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      if (is_affine_)
+        Apic{}.take_jump<Basis>(grid_, jump, particles, p);
+      else
+        particles.velocity[p] += interpolate<Basis>(grid_, jump, particles.position[p]);
+    }
     return particles;
   }
 
   [[nodiscard]] std::unique_ptr<Kernel> started_kernel() {
-    std::vector<PointState> points(particles_.size());
-    for (std::size_t p = 0; p < points.size(); ++p)
-      for (int c : {0, 1}) {
-        points[p].position[c] = particles_.position[p][layout_.axis_of(c)];
-        points[p].velocity[c] = particles_.velocity[p][layout_.axis_of(c)];
-        points[p].mass = particles_.mass[p];
-        points[p].density = particles_.density[p];
-      }
-    std::array<std::vector<double>, 2> polynomials;
+    const std::vector<PointState> points = points_of(particles_, layout_);
+    std::array<std::vector<double>, 2> functions;
     const Fluid& fluid = scene_.fluid;
     KernelSetup setup{Basis::degree,
                       layout_.is_strip(),
                       {},
                       fluid.rheology,
+                      is_affine_,
                       fluid.pressure,
                       dilatation_ == Scheme::Dilatation::Cell,
                       {{fluid.bulk_modulus, 1 / fluid.density}, scene_.least_density()},
@@ -181,15 +183,9 @@ class LanePasses {
                       points.data(),
                       points.size(),
                       sweep_.shares()};
-    for (int c : {0, 1}) {
-      const auto a = static_cast<std::size_t>(c);
-      constexpr int size = (Basis::degree + 1) * (Basis::degree + 1);
-      for (int cell = 0; cell < layout_.axis(c).cells; ++cell)
-        polynomials[a].insert(polynomials[a].end(), layout_.axis(c).polynomials(cell),
-                              layout_.axis(c).polynomials(cell) + size);
-      setup.axis[a] = {layout_.axis(c).cells, layout_.axis(c).periodic, layout_.axis(c).length,
-                       layout_.axis(c).inverse_h, polynomials[a].data()};
-    }
+    for (int c : {0, 1})
+      setup.axis[static_cast<std::size_t>(c)] =
+          line_of_cells(layout_.axis(c), functions[static_cast<std::size_t>(c)]);
     return make_kernel(setup);
   }
 
@@ -198,15 +194,7 @@ class LanePasses {
     if (stepping_ == Scheme::Stepping::Usf) update_all_stress(time_);
     std::vector<PointState> points(particles_.size());
     kernel_->gather(points.data());
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      for (int c : {0, 1}) {
-        particles_.position[p][layout_.axis_of(c)] = points[p].position[c];
-        particles_.velocity[p][layout_.axis_of(c)] = points[p].velocity[c];
-        particles_.stress[p](layout_.axis_of(c), layout_.axis_of(c)) = points[p].stress[c];
-      }
-      particles_.density[p] = points[p].density;
-      particles_.stress[p](0, 1) = particles_.stress[p](1, 0) = points[p].stress[2];
-    }
+    take_points(points, layout_, particles_);
     is_stale_ = false;
   }
 
@@ -214,6 +202,7 @@ class LanePasses {
   Scheme::Stepping stepping_;
   Scheme::Dilatation dilatation_;
   double flip_fraction_;
+  bool is_affine_;
   Grid grid_;  // geometry alone
   LaneLayout layout_;
   ThreadTeam team_;

@@ -5,13 +5,12 @@
 
 namespace mpm {
 
-/// Whether a LaneSolver covers a scheme on a scene: lumped mass with particles that carry a velocity only,
-/// explicit steps of first order, no acceleration that varies in space, no reset of particles.
+/// Whether a LaneSolver covers a scheme on a scene: lumped mass with particles that carry a velocity or an
+/// affine field, explicit steps of first order, no acceleration that varies in space, no reset of particles.
 inline bool lanes_cover(const Scene& scene, const Scheme& scheme) {
   using T = Scheme::Transfer;
   using S = Scheme::Stepping;
-  const bool transfer =
-      scheme.transfer == T::Flip || scheme.transfer == T::Pic || scheme.transfer == T::FlipBlend;
+  const bool transfer = scheme.transfer != T::FullMass;
   const bool stepping = scheme.stepping == S::Usf || scheme.stepping == S::Usl || scheme.stepping == S::Musl;
   return transfer && stepping && !scene.acceleration_field && !scheme.resets();
 }

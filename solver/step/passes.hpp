@@ -53,10 +53,20 @@ class Passes {
 
   /// Puts the particles back on their lattice where that is due, after a step from t to t + dt.
   void reset_if_due(double t, double dt) {
-    if (!reset_ || breakdown_ || !reset_->due(grid_, particles_, dt)) return;
-    (*reset_)(t + dt, walls_, grid_, particles_);
+    if (breakdown_) return;
+    if (!reset_is_due(dt, [&] { return reset_->largest_strain_rate(grid_, particles_); })) return;
+    reset(t + dt);
     update_stress(0);
   }
+
+  // The state, for whoever steps it with passes of his own and leaves to these what is done seldom.
+  [[nodiscard]] Particles& state() { return particles_; }
+  [[nodiscard]] const WallNodes& walls() const { return walls_; }
+  template <class StrainRate>
+  [[nodiscard]] bool reset_is_due(double dt, const StrainRate& strain_rate) {
+    return reset_ && reset_->due(dt, strain_rate);
+  }
+  void reset(double t) { (*reset_)(t, walls_, grid_, particles_); }
 
   /// The passes of a step from t to t + dt, as the explicit rules call them.
   struct Stage {

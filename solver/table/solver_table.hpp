@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/lanes/full_mass_solver.hpp"
 #include "solver/lanes/lane_solver.hpp"
 #include "solver/step/solver.hpp"
 #include "solver/table/make_solver.hpp"
@@ -10,11 +11,13 @@ namespace mpm {
 template <class Basis>
 std::unique_ptr<Simulation> make_solver_on(const Scene& scene, const Scheme& scheme, int threads) {
   if (lanes_cover(scene, scheme)) {
-    const double flip = scheme.transfer == Scheme::Transfer::Flip  ? 1
-                        : scheme.transfer == Scheme::Transfer::Pic ? 0
-                                                                   : scheme.flip_fraction;
+    const double flip = scheme.transfer == Scheme::Transfer::Flip        ? 1
+                        : scheme.transfer == Scheme::Transfer::FlipBlend ? scheme.flip_fraction
+                                                                         : 0;
     return std::make_unique<LaneSolver<Basis>>(scene, scheme, flip, threads);
   }
+  if constexpr (Basis::X::support == Basis::Y::support)  // a plane
+    if (full_mass_lanes_cover(scene, scheme)) return std::make_unique<FullMassSolver<Basis>>(scene, scheme);
   const auto make = [&]<class Transfer>(const Transfer& transfer) -> std::unique_ptr<Simulation> {
     return std::make_unique<Solver<Basis, Transfer>>(scene, scheme, transfer);
   };

@@ -35,10 +35,12 @@ class ParticleReset {
       if (walls.is_wall(i)) weight_[i].setZero();
   }
 
-  /// Whether the particles are due for it, after a step of dt [s] with the grid's velocity.
-  [[nodiscard]] bool due(const Grid& grid, const Particles& particles, double dt) {
+  /// Whether the particles are due for it, after a step of dt [s] at whose end the fluid is strained at a
+  /// rate of strain_rate() where that is largest [1/s].
+  template <class StrainRate>
+  [[nodiscard]] bool due(double dt, const StrainRate& strain_rate) {
     ++steps_;
-    if (most_strain_ > 0) strain_ += dt * largest_strain_rate(grid, particles);
+    if (most_strain_ > 0) strain_ += dt * strain_rate();
     return (every_ > 0 && steps_ >= every_) || (most_strain_ > 0 && strain_ >= most_strain_);
   }
 
@@ -62,6 +64,16 @@ class ParticleReset {
     keep_momentum(momentum, grid, particles);
   }
 
+  /// sqrt(2 D:D) where it is largest [1/s].
+  [[nodiscard]] static double largest_strain_rate(const Grid& grid, const Particles& particles) {
+    double largest = 0;
+    for (const Vec2& x_p : particles.position) {
+      const Mat2 l = gradient<Basis>(grid, grid.velocity, x_p);
+      largest = std::max(largest, 0.5 * (l + l.transpose()).squaredNorm());
+    }
+    return std::sqrt(largest);
+  }
+
  private:
   void project(double t, const WallNodes& walls, Grid& grid, const Particles& particles) {
     std::fill(grid.mass.begin(), grid.mass.end(), 0.0);
@@ -80,16 +92,6 @@ class ParticleReset {
     velocity_mass_.solve(grid, grid.velocity, [&](VectorField& v) { walls.impose_velocity(v, t); });
     density_mass_.template assemble<Basis>(table_, grid, particles);
     density_mass_.solve(grid, density_, [](VectorField&) {});
-  }
-
-  /// sqrt(2 D:D) where it is largest [1/s].
-  [[nodiscard]] static double largest_strain_rate(const Grid& grid, const Particles& particles) {
-    double largest = 0;
-    for (const Vec2& x_p : particles.position) {
-      const Mat2 l = gradient<Basis>(grid, grid.velocity, x_p);
-      largest = std::max(largest, 0.5 * (l + l.transpose()).squaredNorm());
-    }
-    return std::sqrt(largest);
   }
 
   [[nodiscard]] static double sum(const ScalarField& field) {

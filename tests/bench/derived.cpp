@@ -1,5 +1,7 @@
 #include "tests/bench/derived.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "tests/bench/work_count.hpp"
@@ -29,6 +31,35 @@ class Derivation {
  public:
   explicit Derivation(const Collector& rates) : rates_(rates) {}
 
+  void over_general_solver() {
+    for (const std::string scheme : {"cubic_full_mass_leapfrog", "quadratic_apic"})
+      ratio("vortex/" + scheme + "/64/1", "general_vortex/" + scheme + "/64",
+            "speed over the general solver, particle by particle");
+  }
+
+  /// Of what a step costs, in the number of cells.
+  void growth_with_cells() {
+    for (const auto& [scheme, all_cells] :
+         {std::pair{"vortex/cubic_full_mass_leapfrog", std::vector{16L, 32L, 64L, 128L, 256L}},
+          std::pair{"vortex/quadratic_apic", std::vector{16L, 32L, 64L, 128L, 256L}},
+          std::pair{"incompressible_vortex/k3", std::vector{32L, 64L, 128L}}}) {
+      std::vector<double> cells, seconds;
+      for (const long n : all_cells) {
+        const std::string name = scheme + ("/" + std::to_string(n)) + "/1";
+        if (!rates_.has(name)) break;
+        const Rate rate = rates_.rate(name, "steps");
+        records_.push_back({name, "time of a step", 1e3 / rate.value, "ms", rate.spread});
+        cells.push_back(static_cast<double>(n * n));
+        seconds.push_back(1 / rate.value);
+      }
+      if (cells.size() < all_cells.size()) continue;
+      records_.push_back(
+          {scheme,
+           fmt::format("exponent of cost in cells, {} to {} a side", all_cells.front(), all_cells.back()),
+           growth_exponent(cells, seconds), "1", 0});
+    }
+  }
+
   void over_plain_loop() {
     for (const std::string fluid : {"newtonian", "cross", "power_law"})
       ratio("step/linear_" + fluid + "/800/1", "plain_step/" + fluid + "/800", "speed over the plain loop");
@@ -52,6 +83,9 @@ class Derivation {
   void threads() {
     ratio("step/linear_threads/1000000/2/real_time", "step/linear_threads/1000000/1/real_time",
           "speed over one thread");
+    for (const std::string scheme : {"cubic_full_mass_leapfrog", "quadratic_apic"})
+      ratio("vortex/" + scheme + "_threads/128/2/real_time", "vortex/" + scheme + "_threads/128/1/real_time",
+            "speed over one thread");
   }
 
   void peaks() {
@@ -94,6 +128,8 @@ class Derivation {
 std::vector<reports::BenchRecord> derived(const Collector& rates) {
   Derivation derivation(rates);
   derivation.over_plain_loop();
+  derivation.over_general_solver();
+  derivation.growth_with_cells();
   derivation.growth();
   derivation.threads();
   derivation.peaks();

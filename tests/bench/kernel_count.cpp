@@ -22,7 +22,8 @@ std::vector<mpm::PointState> lattice() {
                         .velocity = {0, 0},
                         .mass = density * spacing * spacing,
                         .density = density,
-                        .stress = {0, 0, 0}});
+                        .stress = {0, 0, 0},
+                        .affine = {}});
   return points;
 }
 
@@ -31,17 +32,20 @@ std::vector<mpm::PointState> lattice() {
 double kernel_operations_per_particle_step() {
   const std::vector<mpm::PointState> points = lattice();
   const mpm::Axis axis[2] = {{h * cells[0], cells[0], false, 1}, {h * cells[1], cells[1], true, 1}};
-  std::vector<double> polynomials[2];
+  std::vector<double> functions[2];
   const auto line = [&](int a) {
-    for (int cell = 0; cell < cells[a]; ++cell)
-      polynomials[a].insert(polynomials[a].end(), axis[a].polynomials(cell), axis[a].polynomials(cell) + 4);
+    for (int cell = 0; cell < cells[a]; ++cell) {
+      functions[a].insert(functions[a].end(), axis[a].polynomials(cell), axis[a].polynomials(cell) + 4);
+      for (int k : {0, 1}) functions[a].push_back(axis[a].control_place(cell, k));
+    }
     return mpm::LineOfCells{cells[a], axis[a].periodic, axis[a].length, axis[a].inverse_h,
-                            polynomials[a].data()};
+                            functions[a].data()};
   };
   mpm::counted::LaneKernel<mpm::counted::LaneBasis<1, false>> kernel({.degree = 1,
                                                                       .strip = false,
                                                                       .axis = {line(0), line(1)},
                                                                       .rheology = mpm::Newtonian{viscosity},
+                                                                      .is_affine = false,
                                                                       .has_pressure = true,
                                                                       .pressure = {bulk_modulus, 1 / density},
                                                                       .points = points.data(),

@@ -41,6 +41,10 @@ std::unique_ptr<Simulation> plain_solver(const Scene& scene, const Scheme& schem
       return std::make_unique<Solver<Basis, Pic>>(scene, scheme, Pic{});
     case Scheme::Transfer::FlipBlend:
       return std::make_unique<Solver<Basis, FlipBlend>>(scene, scheme, FlipBlend{scheme.flip_fraction});
+    case Scheme::Transfer::Apic:
+      return std::make_unique<Solver<Basis, Apic>>(scene, scheme, Apic{});
+    case Scheme::Transfer::FullMass:
+      return std::make_unique<Solver<Basis, FullMass>>(scene, scheme, FullMass{});
     default:
       return std::make_unique<Solver<Basis, Flip>>(scene, scheme, Flip{});
   }
@@ -121,7 +125,7 @@ const std::vector<Scheme::Basis> bases{Scheme::Basis::Linear, Scheme::Basis::Qua
 TEST_CASE("vector kernels give what the general solver gives: every scheme that they cover") {
   for (const Scheme::Basis basis : bases)
     for (const Scheme::Transfer transfer :
-         {Scheme::Transfer::Flip, Scheme::Transfer::Pic, Scheme::Transfer::FlipBlend})
+         {Scheme::Transfer::Flip, Scheme::Transfer::Pic, Scheme::Transfer::FlipBlend, Scheme::Transfer::Apic})
       for (const Scheme::Stepping stepping :
            {Scheme::Stepping::Usf, Scheme::Stepping::Usl, Scheme::Stepping::Musl}) {
         Scene scene = whirl(5, 7);
@@ -130,6 +134,34 @@ TEST_CASE("vector kernels give what the general solver gives: every scheme that 
         scene.initial_velocity = [](const Vec2& x) { return Vec2(0.1 * std::sin(1e4 * x.y()), 0); };
         require_same_as_plain(scene, {basis, transfer, stepping});
       }
+}
+
+TEST_CASE("vector kernels: the consistent mass in leapfrog steps, periodic and between walls") {
+  const int nx = GENERATE(9, 3), walls = GENERATE(0, 1, 2);
+  for (const Scheme::Basis basis : bases)
+    for (const bool pressure : {true, false}) {
+      Scene scene = whirl(nx, 8);
+      scene.particles_per_cell = {3, 3};
+      scene.fluid.pressure = pressure;
+      if (walls >= 1) {
+        scene.side(Edge::Bottom) = Side::wall(Vec2(0.02, 0));
+        scene.side(Edge::Top) = Side::wall(Vec2(-0.01, 0));
+      }
+      if (walls == 2) scene.side(Edge::Left) = scene.side(Edge::Right) = Side::wall(Vec2::Zero());
+      if (walls >= 1)
+        scene.initial_velocity = [size = scene.size](const Vec2& x) {
+          const double s = std::sin(std::numbers::pi * x.x() / size.x());
+          return Vec2(0.05 * s * std::sin(1e4 * x.y()), 0);
+        };
+      Scheme scheme{basis, Scheme::Transfer::FullMass, Scheme::Stepping::Leapfrog};
+      INFO("walls " << walls << ", " << nx << " cells" << (pressure ? "" : ", no pressure"));
+      require_same_as_plain(scene, scheme, 4e-6);
+      scheme.reset_every = 7;
+      require_same_as_plain(scene, scheme, 4e-6);
+      scheme.reset_every = 0;
+      scheme.reset_strain = 0.1;
+      require_same_as_plain(scene, scheme, 4e-6);
+    }
 }
 
 TEST_CASE("vector kernels: every rheology, with pressure and without") {
@@ -266,13 +298,15 @@ TEST_CASE("the benchmark's plain loop gives the solver's answer") {
 }
 
 TEST_CASE("a part of a sweep without cells touches no node: it may be another thread's") {
-  const double polynomials[] = {1, 0, -1, 1, 1, 0, -1, 1};  // 1 - s and s in both cells, as Axis gives them
-  const PointState point{{0.5, 0.5}, {1, 1}, 1, 1, {1, 1, 1}};
-  const LineOfCells axis{2, false, 2, 1, polynomials};
+  // 1 - s and s, and where their control points are, in both cells, as Axis gives them.
+  const double functions[] = {1, 0, -1, 1, 0, 1, 1, 0, -1, 1, 0, 1};
+  const PointState point{{0.5, 0.5}, {1, 1}, 1, 1, {1, 1, 1}, {}};
+  const LineOfCells axis{2, false, 2, 1, functions};
   const auto kernel = make_kernel({.degree = 1,
                                    .strip = false,
                                    .axis = {axis, axis},
                                    .rheology = Newtonian{1},
+                                   .is_affine = false,
                                    .has_pressure = true,
                                    .has_cell_pressure = false,
                                    .pressure = {{1, 1}, 0},
@@ -293,7 +327,8 @@ TEST_CASE("a part of a sweep without cells touches no node: it may be another th
 }
 
 TEST_CASE("a simulation outlives the scene that it was made from") {
-  for (const auto transfer : {Scheme::Transfer::Flip, Scheme::Transfer::Apic}) {  // vector kernels; general
+  for (const auto transfer :
+       {Scheme::Transfer::Flip, Scheme::Transfer::FullMass}) {  // vector kernels; general
     const Scheme scheme{Scheme::Basis::Linear, transfer, Scheme::Stepping::Usf};
     const Scene scene = whirl(6, 5);
     const auto beside = make_simulation(scene, scheme);

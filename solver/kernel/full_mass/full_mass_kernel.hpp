@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/kernel/kernel.hpp"
+
+namespace mpm {
+
+// The interface to the vector kernels of the consistent mass, for planes: particles that stand for the grid's
+// own field (FullMass, solver/transfer/transfer.hpp), moved along straight lines. Components and plain data
+// as in kernel.hpp.
+
+/// What the matrix of a uniform fluid is along an axis, and its inverse (UniformMass, solver/grid): the
+/// entries within `reach` of the diagonal, entry (i, i + d) at (d + reach) * count + i [1/m].
+struct LineMass {
+  int reach, count;
+  std::vector<double> diagonal, inverse;  ///< [m], [1/m]
+};
+
+/// A sum over all nodes before and after a solve: sum_i b_i and sum_i m_i x_i of M x = b.
+struct Balance {
+  double asked[2], found[2];
+};
+
+/// Nodes are numbered row * stride + i over those that have a value of their own; images of periodic nodes
+/// are the kernel's business.
+class FullMassKernel {
+ public:
+  virtual ~FullMassKernel() = default;
+
+  /// Takes these particles in place of those that it has.
+  virtual void house(const PointState* points, std::size_t count) = 0;
+  /// Writes all particles in the order in which they came.
+  virtual void gather(PointState* points) const = 0;
+
+  [[nodiscard]] virtual int stride() const = 0;
+  /// What walls prescribe of the field that is solved for next, a component; read on wall nodes alone.
+  virtual double* prescribed(int component) = 0;
+
+  /// P2G: M_ij = sum_p m_p N_ip N_jp, v = M^-1 sum_p N_ip m_p v_p. `v` is what the step starts with, too.
+  virtual Balance project() = 0;
+  /// a = M^-1 f with f_i = m_i b - sum_p V_p sigma_p grad N_ip, sigma of the nodal velocity.
+  virtual Balance accelerate(const double body_acceleration[2]) = 0;
+  /// v = v_start + dt a.
+  virtual void advance_from_start(double dt) = 0;
+  /// G2P: v_p = v(x_p) and its gradient.
+  virtual void take() = 0;
+  /// Moves the particles along straight lines (solver/transfer/straight_drift.hpp).
+  virtual Motion drift(double dt) = 0;
+  /// sqrt(2 D:D) of the nodal velocity at the particle where it is largest [1/s].
+  [[nodiscard]] virtual double largest_strain_rate() = 0;
+};
+
+struct FullMassSetup {
+  KernelSetup particles;         ///< where they are, and of which fluid
+  std::array<LineMass, 2> mass;  ///< by axis
+  std::vector<int> wall_nodes;   ///< row * count along + i
+  double negligible_mass;        ///< functions whose M_ii is below this part of the largest are left out
+};
+
+}  // namespace mpm
