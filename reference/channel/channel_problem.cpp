@@ -16,7 +16,10 @@ void ChannelProblem::check() const {
   require(std::isfinite(initial_acceleration), "channel: the acceleration before t = 0 must be finite");
   require(initial_acceleration == 0.0 || plate_velocity == 0.0,
           "channel: a flow that begins steady needs plates at rest");
-  require(body_acceleration != 0.0 || plate_velocity != 0.0 || initial_acceleration != 0.0,
+  require(std::isfinite(pull), "channel: the stress that pulls must be finite");
+  require(pull == 0.0 || (body_acceleration == 0.0 && plate_velocity == 0.0 && initial_acceleration == 0.0),
+          "channel: a side that is pulled goes with no other drive");
+  require(pull != 0.0 || body_acceleration != 0.0 || plate_velocity != 0.0 || initial_acceleration != 0.0,
           "channel: nothing drives the flow");
   require(std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t) && t >= 0.0; }),
           "channel: times must be finite and not negative");
@@ -25,6 +28,7 @@ void ChannelProblem::check() const {
 std::string ChannelProblem::describe_flow() const {
   std::string before;
   if (initial_acceleration != 0.0) before = fmt::format("F(t<0)={:.17g} ", initial_acceleration);
+  if (pull != 0.0) return fmt::format("H={:.17g} pull={:.17g} {}", height, pull, curve.describe());
   return fmt::format("H={:.17g} F={:.17g} V0={:.17g} {}{}", height, body_acceleration, plate_velocity, before,
                      curve.describe());
 }

@@ -32,7 +32,7 @@ double largest(const std::vector<double>& v) {
 
 /// The linear system of Newton's iteration: M dW/dt + K T - b = 0 at the stages, linearised, with the
 /// interior of every element eliminated on the spot and the 3x3-block tridiagonal rest solved from the
-/// symmetry plane or wall backwards. Factorised where the iteration stands, and again only when it converges
+/// far end backwards. Factorised where the iteration stands, and again only when it converges
 /// slowly with that.
 class ShearDiffusion::Newton {
  public:
@@ -56,7 +56,7 @@ class ShearDiffusion::Newton {
       assemble(e, h, dw, dtau);
       condense(e);
     }
-    if (owner_.far_end_ == FarEnd::kSymmetry) {
+    if (owner_.far_end_ == FarEnd::kGivenRate) {
       corner_[elements_].diagonal.setIdentity();
       corner_[elements_].lower.setZero();
     }
@@ -86,7 +86,7 @@ class ShearDiffusion::Newton {
       corner_[e].right += residual_.segment(0, 3) - element.to_left * element.right;
       corner_[e + 1].right += residual_.segment(last, 3) - element.to_right * element.right;
     }
-    if (owner_.far_end_ == FarEnd::kSymmetry) corner_[elements_].right.setZero();
+    if (owner_.far_end_ == FarEnd::kGivenRate) corner_[elements_].right.setZero();
     return substitute(change);
   }
 
@@ -192,8 +192,13 @@ class ShearDiffusion::Newton {
 };
 
 ShearDiffusion::ShearDiffusion(const FlowCurve& curve, const SpectralLine& line, double stress_slope,
-                               FarEnd far_end, Unknown unknown)
-    : curve_(curve), line_(line), stress_slope_(stress_slope), far_end_(far_end), unknown_(unknown) {
+                               FarEnd far_end, Unknown unknown, double far_rate)
+    : curve_(curve),
+      line_(line),
+      stress_slope_(stress_slope),
+      far_end_(far_end),
+      unknown_(unknown),
+      far_rate_(far_rate) {
   const GaussLobatto& gl = line.lobatto();
   const int n = gl.degree + 1;
   stiffness_.assign(n * n, 0.0);
@@ -228,7 +233,7 @@ bool ShearDiffusion::iterate(double h, const std::vector<double>& start, Stages&
   Newton newton(*this);
   Stages tau, dw, dtau, change;
   for (int i = 0; i < 3; ++i) {
-    if (far_end_ == FarEnd::kSymmetry) w[i].back() = 0.0;
+    if (far_end_ == FarEnd::kGivenRate) w[i].back() = far_rate_;
     tau[i].resize(size), dw[i].resize(size), dtau[i].resize(size), change[i].resize(size);
     for (std::size_t j = 0; j < size; ++j) tau[i][j] = curve_.stress(w[i][j]);
   }

@@ -9,10 +9,10 @@
 namespace reference {
 
 /// The velocity gradient w(s, t) of a channel: w_t = tau(w)_ss on [0, length], with the stress's slope given
-/// at s = 0 and, at the far end, either given too (a wall) or the stress zero (a symmetry plane). The slope
-/// is what a steady wall under a uniform body force demands. Spectral elements with lumped mass in space, the
-/// three-stage Radau IIA method (order 5, L-stable; Hairer & Wanner II, IV.5) in time. Conservative: the
-/// integral of w changes by what the ends let through.
+/// at s = 0 and, at the far end, either given too (a wall) or the rate: zero at a symmetry plane, and where a
+/// stress pulls the one that has it. The slope is what a steady wall under a uniform body force demands.
+/// Spectral elements with lumped mass in space, the three-stage Radau IIA method (order 5, L-stable; Hairer &
+/// Wanner II, IV.5) in time. Conservative: the integral of w changes by what the ends let through.
 ///
 /// Newton works on the stress for shear-thinning curves and on w for the others, so that neither an infinite
 /// nor a vanishing viscosity appears in it: in terms of q, W(q)_t = T(q)_ss with W and T both smooth.
@@ -21,10 +21,10 @@ class ShearDiffusion {
   using Stages = std::array<std::vector<double>, 3>;
 
   enum class Unknown { kStress, kRate };
-  enum class FarEnd { kWall, kSymmetry };
+  enum class FarEnd { kWall, kGivenRate };
 
   ShearDiffusion(const FlowCurve& curve, const SpectralLine& line, double stress_slope, FarEnd far_end,
-                 Unknown unknown);
+                 Unknown unknown, double far_rate = 0.0);
 
   /// One step of length h [s] from the nodal gradients `w`. `stages` holds a first guess of w at the three
   /// stages, and on return their solution; the last is the new state. Returns false if Newton does not
@@ -55,6 +55,7 @@ class ShearDiffusion {
   double stress_slope_;
   FarEnd far_end_;
   Unknown unknown_;
+  double far_rate_;                // of FarEnd::kGivenRate [1/s]
   std::vector<double> stiffness_;  // of the reference element, (p+1)^2
 };
 

@@ -31,6 +31,12 @@ std::string describe(const TransientResolution& r) {
                      r.smallest, r.neglected);
 }
 
+double steady_maximum_of(const ChannelProblem& p) {
+  if (p.pull != 0.0) return std::abs(p.curve.rate(p.pull)) * p.height;
+  return std::max(SteadyChannel(p.height, p.body_acceleration, p.plate_velocity, p.curve).maximum(),
+                  SteadyChannel(p.height, p.initial_acceleration, 0.0, p.curve).maximum());
+}
+
 }  // namespace
 
 std::string transient_name(const ChannelProblem& problem) {
@@ -41,10 +47,7 @@ TransientChannel::TransientChannel(const ChannelProblem& problem,
                                    const std::filesystem::path& cache_directory)
     : problem_(checked(problem)),
       solution_(problem, fine_resolution(problem)),
-      steady_maximum_(std::max(
-          SteadyChannel(problem.height, problem.body_acceleration, problem.plate_velocity, problem.curve)
-              .maximum(),
-          SteadyChannel(problem.height, problem.initial_acceleration, 0.0, problem.curve).maximum())) {
+      steady_maximum_(steady_maximum_of(problem)) {
   const std::string key = fmt::format("{} {} {}", transient_name(problem), describe(fine_resolution(problem)),
                                       describe(coarse_resolution(problem)));
   TransientSolution coarse(problem, coarse_resolution(problem));
@@ -86,6 +89,12 @@ void TransientChannel::compare(const TransientSolution& coarse) {
 }
 
 std::string TransientChannel::description() const {
+  if (problem_.pull != 0.0)
+    return fmt::format(
+        "transient reference (spectral elements, Radau IIA): H = {:g} m, pulled by {:g} m2/s2, {}; stated "
+        "error "
+        "{:.1e}",
+        problem_.height, problem_.pull, problem_.curve.describe(), velocity_error_);
   return fmt::format(
       "transient reference (spectral elements, Radau IIA): H = {:g} m, F = {:g} m/s2, V0 = {:g} m/s, {}; "
       "stated "

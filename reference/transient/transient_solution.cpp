@@ -20,10 +20,11 @@ namespace {
 /// Whether the flow curve's local exponent d ln(tau)/d ln(w) varies by more than half over the shear rates of
 /// a start-up, from the core's to the first layer's: such a profile is nearly kinked, and its spectrum long.
 bool nearly_kinked(const ChannelProblem& problem) {
-  const double rate =
-      SteadyChannel(problem.height, problem.body_acceleration, problem.plate_velocity, problem.curve)
-          .maximum() /
-      problem.height;
+  const double rate = problem.pull != 0.0 ? std::abs(problem.curve.rate(problem.pull))
+                                          : SteadyChannel(problem.height, problem.body_acceleration,
+                                                          problem.plate_velocity, problem.curve)
+                                                    .maximum() /
+                                                problem.height;
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (double share = 1e-3; share < 1e7; share *= 10.0) {
     const double n = problem.curve.local_exponent(share * rate);
@@ -68,6 +69,11 @@ TransientSolution::TransientSolution(const ChannelProblem& problem, const Transi
                              problem_.curve);
   velocity_scale_ = std::max(steady.maximum(), before_.maximum());
   thinning_ = std::isinf(problem_.curve.slope(0.0));
+  if (pulled()) {
+    far_rate_ = problem_.curve.rate(problem_.pull);
+    velocity_scale_ = std::abs(far_rate_) * problem_.height;
+    return;
+  }
   const auto* power_law = std::get_if<PowerLawCurve>(&problem_.curve.model());
   if (whole_gap()) {
     if (power_law && power_law->n > 1.0 && problem_.body_acceleration == 0.0) {
@@ -112,7 +118,7 @@ void TransientSolution::choose_layer() {
 }
 
 SpectralLine TransientSolution::mesh() const {
-  const double length = whole_gap() ? problem_.height : 0.5 * problem_.height;
+  const double length = whole_gap() || pulled() ? problem_.height : 0.5 * problem_.height;
   // A combined flow's zero-shear point, a kink of the flow curve, wanders through the mesh, and a strongly
   // thickening fluid ends its layer in a bend that does: nothing but size helps there.
   const bool bends =
@@ -122,7 +128,7 @@ SpectralLine TransientSolution::mesh() const {
   // |z|^(1/n), or what a landed front leaves, or the lower wall's own layer.
   const double near_end = whole_gap()
                               ? (fronts_arrived_ ? 0.1 * length : 0.3 * layer_->thickness(start_time_))
-                              : (fronts_arrived_ ? 1e-2 * length : 1e-5 * length);
+                              : (fronts_arrived_ || pulled() ? 1e-2 * length : 1e-5 * length);
   const double far_end =
       whole_gap() && !fronts_arrived_ && !combined() ? 0.1 * length : resolution_.smallest * length;
   std::vector<double> sizes = graded_sizes(0.5 * length, near_end, largest, 2.0);
@@ -136,6 +142,7 @@ std::vector<double> TransientSolution::start(const SpectralLine& line) const {
   for (const double s : line.nodes()) {
     w.push_back(layer_      ? layer_->rate(s, start_time_)
                 : start_up_ ? start_up_->gradient(s, start_time_)
+                : pulled()  ? 0.0
                             : before_.gradient(s));
   }
   if (layer_) {
@@ -153,8 +160,8 @@ void TransientSolution::solve() {
   const double stress_slope = whole_gap() ? problem_.body_acceleration : -problem_.body_acceleration;
   const ShearDiffusion diffusion(
       problem_.curve, line, stress_slope,
-      whole_gap() ? ShearDiffusion::FarEnd::kWall : ShearDiffusion::FarEnd::kSymmetry,
-      thinning_ ? ShearDiffusion::Unknown::kStress : ShearDiffusion::Unknown::kRate);
+      whole_gap() ? ShearDiffusion::FarEnd::kWall : ShearDiffusion::FarEnd::kGivenRate,
+      thinning_ ? ShearDiffusion::Unknown::kStress : ShearDiffusion::Unknown::kRate, far_rate_);
   ShearIntegration settings;
   settings.start_time = start_time_;
   settings.end_time = problem_.last_time();
@@ -196,7 +203,7 @@ double TransientSolution::velocity(double y, double t) const {
   require(t >= 0.0 && t <= problem_.last_time(),
           "transient channel: the time is beyond the last one asked for");
   if (y == 0.0) return 0.0;
-  if (y == problem_.height) return problem_.plate_velocity;
+  if (y == problem_.height && !pulled()) return problem_.plate_velocity;
   if (t == 0.0) return before_.velocity(y);
   const double above = problem_.height - y;
   if (whole_gap()) {
@@ -208,7 +215,7 @@ double TransientSolution::velocity(double y, double t) const {
     }
     return problem_.plate_velocity - history_->integral(above, t);
   }
-  const double s = std::min(y, above);
+  const double s = pulled() ? y : std::min(y, above);
   if (t <= start_time_) return start_up_->velocity(s, t);
   if (t < history_->first_time()) {
     const double share = (t - start_time_) / (history_->first_time() - start_time_);
@@ -222,15 +229,16 @@ double TransientSolution::gradient(double y, double t) const {
   require(y >= 0.0 && y <= problem_.height, "channel: y must lie between the plates");
   require(t >= 0.0 && t <= problem_.last_time(),
           "transient channel: the time is beyond the last one asked for");
-  const double s = whole_gap() ? problem_.height - y : std::min(y, problem_.height - y);
-  const double sign = whole_gap() || y <= 0.5 * problem_.height ? 1.0 : -1.0;
+  const double s = whole_gap() ? problem_.height - y : pulled() ? y : std::min(y, problem_.height - y);
+  const double sign = whole_gap() || pulled() || y <= 0.5 * problem_.height ? 1.0 : -1.0;
   if (t == 0.0)
     return whole_gap() && s == 0.0
                ? std::copysign(std::numeric_limits<double>::infinity(), problem_.plate_velocity)
                : before_.gradient(y);
   // There |z|^(1/n) would turn the last bit of y into a visible shear rate.
   constexpr double kMiddle = 4.0 * std::numeric_limits<double>::epsilon();
-  if (!whole_gap() && std::abs(0.5 * problem_.height - y) <= kMiddle * problem_.height) return 0.0;
+  if (!whole_gap() && !pulled() && std::abs(0.5 * problem_.height - y) <= kMiddle * problem_.height)
+    return 0.0;
   if (t <= start_time_) return sign * (layer_ ? layer_->rate(s, t) : start_up_->gradient(s, t));
   const double at = std::max(t, history_->first_time());
   const SpectralLine& line = history_->line();
@@ -238,7 +246,7 @@ double TransientSolution::gradient(double y, double t) const {
   std::vector<double> values = history_->element(e, at);
   // Near the centre the stress is smooth and the gradient is not; where a front has landed it is the other
   // way round.
-  if (whole_gap() && !thinning_) return sign * line.interpolate(values.data(), xi);
+  if ((whole_gap() || pulled()) && !thinning_) return sign * line.interpolate(values.data(), xi);
   for (double& value : values) value = problem_.curve.stress(value);
   return sign * problem_.curve.rate(line.interpolate(values.data(), xi));
 }

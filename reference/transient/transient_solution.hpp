@@ -34,6 +34,8 @@ TransientResolution fine_resolution(const ChannelProblem& problem);
 ///   the flow curve at the layer's shear rate, so thin that what it neglects - the curve's bending, the other
 ///   plate, the body force - is a negligible share of the displacement; for power-law Couette with n > 1 at
 ///   the moment when the front lands.
+/// - Upper side pulled: s = y on the whole gap, the rate that has the stress at the far end. It begins at
+/// rest.
 class TransientSolution {
  public:
   /// Sets up the problem without solving it; `problem` has passed its check.
@@ -57,6 +59,7 @@ class TransientSolution {
   [[nodiscard]] SpectralLine mesh() const;
   [[nodiscard]] std::vector<double> start(const SpectralLine& line) const;
   [[nodiscard]] bool whole_gap() const { return problem_.plate_velocity != 0.0; }
+  [[nodiscard]] bool pulled() const { return problem_.pull != 0.0; }
   [[nodiscard]] bool combined() const { return whole_gap() && problem_.body_acceleration != 0.0; }
 
   ChannelProblem problem_;
@@ -67,6 +70,7 @@ class TransientSolution {
   double start_time_ = 0.0;
   std::optional<BarenblattCouette> layer_;   // exact or asymptotic up to start_time_
   std::optional<PowerLawStartUp> start_up_;  // exact up to start_time_
+  double far_rate_ = 0.0;                    // at the far end, where it is given [1/s]
   bool fronts_arrived_ = false;              // start_time_ is that of a front's arrival at the far end
   std::optional<GradientHistory> history_;
 };

@@ -262,7 +262,8 @@ bool is_plain_name(const std::string& name) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' ||
            c == '_' || c == '=' || c == '-';
   };
-  const bool other_file = name.ends_with(".history") || name.ends_with(".shear") || name.ends_with(".state");
+  const bool other_file = name.ends_with(".history") || name.ends_with(".shear") ||
+                          name.ends_with(".state") || name.ends_with(".surface");
   // A file name may have 255 bytes; the ending and the temporary file's number need some of them.
   return !name.empty() && name.size() <= 200 && name.front() != '.' && name.front() != '-' && !other_file &&
          std::all_of(name.begin(), name.end(), plain);
@@ -272,7 +273,7 @@ const std::string& require_plain_name(const char* what, const std::string& name)
   if (is_plain_name(name)) return name;
   throw IoError(
       fmt::format("{} name '{}' cannot be a file name; use up to 200 letters, digits and . _ = -, no "
-                  "leading dot or dash, no '.history', '.shear' or '.state' at the end",
+                  "leading dot or dash, no '.history', '.shear', '.state' or '.surface' at the end",
                   what, name));
 }
 

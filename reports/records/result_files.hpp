@@ -49,7 +49,8 @@ std::vector<StateRow> read_state(const std::filesystem::path& dir, const std::st
 void write_state(const std::filesystem::path& dir, const std::string& run, const std::vector<StateRow>& rows);
 
 /// True for a name that is safe as a file stem: letters, digits and . _ = -, neither empty nor starting with
-/// a dot, not ending in ".history", ".shear" or ".state" (those are other files), at most 200 characters.
+/// a dot, not ending in ".history", ".shear", ".state" or ".surface" (those are other files), at most 200
+/// characters.
 bool is_plain_name(const std::string& name);
 
 /// Returns `name`, or throws IoError if it is no plain name. `what` says whose name it is, e.g. "run".

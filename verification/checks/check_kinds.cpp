@@ -10,6 +10,7 @@
 #include "verification/checks/comparison.hpp"
 #include "verification/checks/outcome_check.hpp"
 #include "verification/checks/stability_checks.hpp"
+#include "verification/checks/surface/shift_check.hpp"
 #include "verification/convergence/order_remark.hpp"
 #include "verification/runs/measures.hpp"
 #include "verification/runs/scheme_matrix.hpp"
@@ -251,6 +252,7 @@ const std::vector<CheckKind>& check_kinds() {
     add_quantity_kinds(list);
     add_outcome_kind(list);
     add_chatter_kind(list);
+    add_shift_kind(list);
     add_stability_kinds(list);
     return list;
   }();

@@ -34,6 +34,7 @@ std::optional<std::size_t> expected_checks(const CheckSpec& spec, const Study& s
   if (kind == "formal-order") return variants * locations;
   if (kind == "particle-bias") return runs_at_level(spec, study) * times;
   if (kind == "conservation" || kind == "scalar" || kind == "chatter") return runs_at_level(spec, study);
+  if (kind == "shift") return 2 * runs_at_level(spec, study);
   if (kind == "ordering") return 1;
   if (kind == "ratio" || kind == "crossing") return variants;
   if (kind == "divergence") return study.runs.size();

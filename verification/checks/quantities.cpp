@@ -9,6 +9,7 @@
 
 #include "reports/summaries/work_precision.hpp"
 #include "verification/checks/oscillation.hpp"
+#include "verification/checks/surface/surface_quantities.hpp"
 #include "verification/runs/measures.hpp"
 
 namespace verification {
@@ -187,40 +188,6 @@ double velocity_error(const RunData& run, double t, Location location) {
   return nan;
 }
 
-// ---- a fluid with a free surface
-
-/// Largest coordinate along an axis of the particles with x < below, to the edge of what a particle fills.
-double reach(const RunData& run, double t, int axis, double below) {
-  const SceneConfig& scene = run.plan->scene;
-  double largest = nan;
-  for (const reports::ProfileRow* row : rows_at(run, t, Location::Particles)) {
-    const double x = axis == 0 ? row->x : row->y;
-    if (row->x < below && !(x <= largest)) largest = x;
-  }
-  const auto a = static_cast<std::size_t>(axis);
-  return largest + 0.5 * scene.scene.cell_size(axis) / scene.scene.particles_per_cell[a];
-}
-
-double front(const RunData& run, double t) {
-  return reach(run, t, 0, std::numeric_limits<double>::infinity());
-}
-
-/// Least-squares slope of the front over the output times [m/s].
-double front_slope(const RunData& run) {
-  const std::vector<double>& times = run.plan->scene.outputs;
-  double t_mean = 0, x_mean = 0, covariance = 0, variance = 0;
-  if (!run.completed() || times.size() < 2) return nan;
-  for (const double t : times) {
-    t_mean += t / static_cast<double>(times.size());
-    x_mean += front(run, t) / static_cast<double>(times.size());
-  }
-  for (const double t : times) {
-    covariance += (t - t_mean) * (front(run, t) - x_mean);
-    variance += (t - t_mean) * (t - t_mean);
-  }
-  return covariance / variance;
-}
-
 // ---- where particles are
 
 /// Fewest or most particles in a cell.
@@ -337,16 +304,10 @@ double particle_steps(const RunData& run) {
   return run.completed() && count > 0 ? count : nan;
 }
 
-struct Entry {
-  const char *name, *unit;
-  bool time, place;
-  double (*evaluate)(const Quantity&, const RunData&);
-};
-
 constexpr auto rate = &reports::ShearRow::shear_rate;
 constexpr auto viscosity = &reports::ShearRow::viscosity_ratio;
 
-const std::vector<Entry> entries = {
+const std::vector<QuantityEntry> own_entries = {
     {"settling-time", "s", false, false, [](const Quantity&, const RunData& r) { return settling_time(r); }},
     {"final-velocity", "m/s", false, false,
      [](const Quantity&, const RunData& r) {
@@ -387,13 +348,6 @@ const std::vector<Entry> entries = {
      [](const Quantity& q, const RunData& r) { return in_a_cell(r, q.time, true); }},
     {"most-in-a-cell", "particles", true, false,
      [](const Quantity& q, const RunData& r) { return in_a_cell(r, q.time, false); }},
-    {"front", "m", true, false, [](const Quantity& q, const RunData& r) { return front(r, q.time); }},
-    {"front-slope", "1", false, false,
-     [](const Quantity&, const RunData& r) { return front_slope(r) / r.plan->scene.flow->velocity_scale(); }},
-    {"column-height", "m", true, false,
-     [](const Quantity& q, const RunData& r) {
-       return reach(r, q.time, 1, r.plan->scene.scene.cell_size(0));
-     }},
     {"largest-speed", "1", false, false,
      [](const Quantity&, const RunData& r) {
        return largest_speed(r, 0, 1) / r.plan->scene.flow->velocity_scale();
@@ -411,8 +365,17 @@ const std::vector<Entry> entries = {
      [](const Quantity&, const RunData& r) { return r.completed() ? energy_drift(r.history) : nan; }},
 };
 
-const Entry& entry(const std::string& name) {
-  return *std::ranges::find_if(entries, [&](const Entry& e) { return name == e.name; });
+const std::vector<QuantityEntry>& entries() {
+  static const std::vector<QuantityEntry> all = [] {
+    std::vector<QuantityEntry> list = own_entries;
+    add_surface_quantities(list);
+    return list;
+  }();
+  return all;
+}
+
+const QuantityEntry& entry(const std::string& name) {
+  return *std::ranges::find_if(entries(), [&](const QuantityEntry& e) { return name == e.name; });
 }
 
 }  // namespace
@@ -420,7 +383,7 @@ const Entry& entry(const std::string& name) {
 const std::vector<std::string>& quantity_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> list;
-    for (const Entry& e : entries) list.emplace_back(e.name);
+    for (const QuantityEntry& e : entries()) list.emplace_back(e.name);
     return list;
   }();
   return names;

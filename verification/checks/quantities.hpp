@@ -13,6 +13,13 @@ struct Quantity {
   double place = 0;  ///< distance from the resting plate as a fraction of the gap, for local quantities
 };
 
+/// A quantity by name, and how it is taken of a run.
+struct QuantityEntry {
+  const char *name, *unit;
+  bool time, place;
+  double (*evaluate)(const Quantity&, const RunData&);
+};
+
 /// Known names, one a line, with their units:
 ///
 /// - settling-time [s]: first time after which the probe stays within 1 % of its steady velocity (t99)
@@ -34,9 +41,12 @@ struct Quantity {
 /// - path-error [cells]: largest distance of a particle from its exact place at a time
 /// - grid-error, particle-error [1]: relative L2 error of velocity at a time
 /// - front [m]: largest x that the fluid reaches at a time; column-height [m]: largest y in the first column
-/// of
-///   cells at a time
+///   of cells at a time
 /// - front-slope [1]: slope of the front over the output times, relative to the velocity scale
+/// - front-error [1]: the front over that of theory at a time, minus 1; front-exponent-error [1]: the same of
+///   the exponent p in front ~ (age + t)^p over the output times
+/// - energy-growth [1]: of a fluid with a free surface, largest growth of its kinetic, potential and elastic
+///   energy over the one at the start; energy-change [1]: that at the end of the run
 /// - largest-speed [1]: largest root mean square velocity of the particles over the history, relative to the
 ///   velocity scale
 /// - speed-growth [1]: the same in the second half of the history over that in the first

@@ -78,6 +78,7 @@ int solve_command(const SceneOptions& options) {
   reports::write_history(options.out, data.record.run, data.history);
   if (!data.shear.empty()) reports::write_shear(options.out, data.record.run, data.shear);
   if (!data.state.empty()) reports::write_state(options.out, data.record.run, data.state);
+  if (!data.surface.empty()) reports::write_surface(options.out, data.record.run, data.surface);
   write_interchange(options.out, data);
 
   reports::Results results;

@@ -24,6 +24,7 @@ using reports::column;
 struct LoadedRun {
   std::vector<reports::ProfileRow> profile;
   std::vector<reports::HistoryRow> history;
+  std::vector<reports::SurfaceRow> surface;
 };
 
 std::vector<reports::ProfileRow> read_interchange(const std::filesystem::path& file) {
@@ -48,6 +49,8 @@ LoadedRun load(const std::filesystem::path& dir, const std::string& run) {
   loaded.profile = reports::read_profile(dir, run);
   if (std::filesystem::exists(dir / "profiles" / (run + ".history.csv")))
     loaded.history = reports::read_history(dir, run);
+  if (std::filesystem::exists(dir / "profiles" / (run + ".surface.csv")))
+    loaded.surface = reports::read_surface(dir, run);
   return loaded;
 }
 
@@ -107,7 +110,7 @@ int validate_command(const ValidateOptions& options) {
   for (const std::string& run : options.runs) loaded.push_back(load(options.result, run));
   ComparedRuns runs;
   runs.formal_order = options.formal_order;
-  for (const LoadedRun& run : loaded) runs.levels.push_back({&run.profile, &run.history});
+  for (const LoadedRun& run : loaded) runs.levels.push_back({&run.profile, &run.history, &run.surface});
   if (std::isnan(options.u_num)) {
     if (options.runs.size() < 3)
       throw ConfigError(

@@ -5,8 +5,8 @@
 #include <functional>
 #include <limits>
 
-#include "reference/compressible/tait_column.hpp"
 #include "verification/flows/flow.hpp"
+#include "verification/flows/surface/column_at_rest.hpp"
 
 namespace verification {
 
@@ -19,7 +19,8 @@ struct BoxParameters {
   Vec2 initial_velocity = Vec2::Zero();       ///< [m/s]
   double velocity_scale = 0;                  ///< [m/s]
   std::function<bool(const Vec2&)> is_fluid;  ///< the part that fluid fills at the start; all when empty
-  /// Height up to which it stands in hydrostatic equilibrium at the start under the acceleration along y [m];
+  /// Height up to which it stands in hydrostatic equilibrium of the grid (ColumnAtRest) at the start under
+  /// the acceleration along y [m];
   /// NaN: at the reference density.
   double surface = std::numeric_limits<double>::quiet_NaN();
   mpm::Fluid fluid;
@@ -40,9 +41,9 @@ class BoxFlow final : public Flow {
     scene.fluid = parameters_.fluid;
     if (parameters_.is_fluid) scene.free_surface = mpm::FreeSurface{parameters_.is_fluid};
     if (std::isfinite(parameters_.surface)) {
-      const reference::TaitColumn column({parameters_.surface, -parameters_.body_acceleration.y(),
-                                          parameters_.fluid.sound_speed(), parameters_.fluid.density});
-      scene.initial_density = [column](const Vec2& x) { return column.density(x.y()); };
+      scene.initial_density = density_at_rest(
+          {parameters_.surface, -parameters_.body_acceleration.y(), scene.cell_size(1), d.particles_across},
+          parameters_.fluid);
     }
     return scene;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -61,6 +62,15 @@ struct Probe {
 struct Oscillation {
   double angular_frequency = 0;  ///< [rad/s]
   double decay_rate = 0;         ///< [1/s]
+};
+
+/// How a heap of fluid spreads: its front [m] at a time t [s] of the run goes as (age + t)^exponent.
+struct Spreading {
+  double age = 0;  ///< at t = 0 [s]
+  double exponent = 0;
+  double front_at_start = 0;  ///< [m]
+
+  [[nodiscard]] double front(double t) const { return front_at_start * std::pow(1 + t / age, exponent); }
 };
 
 /// A reference that takes long to compute. Whoever asks for one of the same name that ends no later finds it
@@ -127,6 +137,8 @@ class Flow {
   [[nodiscard]] virtual double pressure_scale() const;
   /// How the probe oscillates: freely, or (decay rate 0) as it is driven; none for other flows.
   [[nodiscard]] virtual std::optional<Oscillation> oscillation() const { return std::nullopt; }
+  /// How its front spreads; none for other flows.
+  [[nodiscard]] virtual std::optional<Spreading> spreading() const { return std::nullopt; }
   /// Time before which a run must end [s], because the solution ends there.
   [[nodiscard]] virtual double latest() const { return std::numeric_limits<double>::infinity(); }
   /// The same at time t [s], for flows that decay or grow [m/s].

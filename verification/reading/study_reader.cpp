@@ -44,6 +44,7 @@ Ladder read_ladder(TomlTable table, bool present, bool matrix) {
     require_ladder(table, "cells", ladder.cells, true);
     ladder.formal_exponent = table.flag("formal_dt_exponent", false);
     ladder.dt_exponent = table.number("dt_exponent", ladder.dt_exponent);
+    ladder.along = table.flag("along", false);
   } else if (axis == "time") {
     ladder.axis = Axis::Time;
     ladder.dt = table.numbers("dt");
@@ -66,6 +67,17 @@ Ladder read_ladder(TomlTable table, bool present, bool matrix) {
   return ladder;
 }
 
+/// In the same ratio as the cells across.
+int cells_along_at(TomlTable& scene, const Ladder& ladder, std::size_t level) {
+  TomlTable discretisation = scene.table("discretisation");
+  const long product = static_cast<long>(discretisation.integer("cells_along")) * ladder.cells[level];
+  if (product % ladder.cells.front() != 0)
+    discretisation.fail("cells_along", fmt::format("times {}/{} is no whole number: choose levels of the "
+                                                   "ladder that keep it one",
+                                                   ladder.cells[level], ladder.cells.front()));
+  return static_cast<int>(product / ladder.cells.front());
+}
+
 /// Lays the values of one level over the scene. A space ladder scales a fixed dt; one from limits follows by
 /// itself.
 TomlTable at_level(const TomlTable& scene, const Ladder& ladder, int level, std::string& tag) {
@@ -73,6 +85,7 @@ TomlTable at_level(const TomlTable& scene, const Ladder& ladder, int level, std:
   const auto i = static_cast<std::size_t>(level);
   if (ladder.axis == Axis::Space) {
     result.set("discretisation.cells", ladder.cells[i]);
+    if (ladder.along) result.set("discretisation.cells_along", cells_along_at(result, ladder, i));
     TomlTable time = result.table("time");
     if (time.has("dt")) {
       const double ratio = static_cast<double>(ladder.cells.front()) / ladder.cells[i];

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reports/records/records.hpp"
+#include "reports/records/surface.hpp"
 #include "solver/linear_algebra.hpp"
 #include "verification/convergence/order.hpp"
 #include "verification/study/study.hpp"
@@ -19,8 +20,9 @@ struct RunData {
   reports::TimingRecord timing;
   std::vector<reports::ProfileRow> profile;
   std::vector<reports::HistoryRow> history;
-  std::vector<reports::ShearRow> shear;  ///< channels only
-  std::vector<reports::StateRow> state;  ///< flows with an exact density only
+  std::vector<reports::ShearRow> shear;      ///< channels only
+  std::vector<reports::StateRow> state;      ///< flows with an exact density only
+  std::vector<reports::SurfaceRow> surface;  ///< of a fluid with a free surface only
   mpm::VectorField start;     ///< where the particles were seeded, in the order of the profiles [m]
   std::vector<double> probe;  ///< streamwise grid velocity at the probe at each output reached [m/s]
   std::vector<reports::ErrorRecord> errors;

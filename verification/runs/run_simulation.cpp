@@ -13,6 +13,7 @@
 #include "solver/simulation.hpp"
 #include "solver/sph/make_sph_solver.hpp"
 #include "verification/runs/interruption.hpp"
+#include "verification/runs/surface_record.hpp"
 
 namespace verification {
 namespace {
@@ -106,6 +107,7 @@ class Recorder {
     data_.history.push_back({t, probe_velocity(t), exact, totals.mass, totals.momentum.x(),
                              totals.momentum.y(), totals.impulse.x(), totals.impulse.y(),
                              totals.kinetic_energy, exact_ ? exact_->kinetic_energy(t).value_or(nan) : nan});
+    if (scene_.scene.free_surface) data_.surface.push_back(surface_at(scene_, simulation_, t));
     ++samples_;
   }
 

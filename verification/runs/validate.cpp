@@ -19,7 +19,7 @@ const RunData& only_run(const StudyData& data, const std::string& variant) {
 }
 
 RunFiles files_of(const RunData& run) {
-  return {&run.profile, &run.history};
+  return {&run.profile, &run.history, &run.surface};
 }
 
 ComparedRuns runs_compared(const StudyData& data, const std::string& variant) {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "verification/flows/box_flow.hpp"
 #include "verification/flows/channel/channel_flow.hpp"
 #include "verification/flows/channel/oscillating_channel_flow.hpp"
 #include "verification/flows/channel/stress_driven_flow.hpp"
@@ -16,11 +15,11 @@
 #include "verification/flows/waves/periodic_flow.hpp"
 #include "verification/flows/waves/tait_column_flow.hpp"
 #include "verification/flows/waves/wave_flow.hpp"
+#include "verification/scene/scene_keys.hpp"
+#include "verification/scene/surface_flow_reader.hpp"
 
 namespace verification {
 namespace {
-
-using FlowPointer = std::shared_ptr<const Flow>;
 
 int read_axis(TomlTable& table, const std::string& absent) {
   const std::string axis = table.text("axis", absent);
@@ -32,12 +31,6 @@ double read_nonzero(TomlTable& table, const std::string& key) {
   const double value = table.number(key);
   if (value == 0) table.fail(key, "must not be zero: nothing would move and no relative error exists");
   return value;
-}
-
-Vec2 read_vector(TomlTable& table, const std::string& key) {
-  const std::vector<double> values = table.numbers(key);
-  if (values.size() != 2) table.fail(key, "must be a pair [x, y]");
-  return {values[0], values[1]};
 }
 
 FlowPointer read_channel(TomlTable& table, const FluidConfig& fluid, bool driven, bool plate) {
@@ -77,12 +70,6 @@ FlowPointer read_cessation(TomlTable& table, const FluidConfig& fluid) {
   } catch (const std::invalid_argument& error) {
     table.fail("flow", error.what());
   }
-}
-
-double newtonian_viscosity(const TomlTable& table, const FluidConfig& fluid) {
-  const auto nu = fluid.curve.newtonian();
-  if (!nu) table.fail("flow", "has an exact solution for a Newtonian fluid only");
-  return *nu;
 }
 
 WaveParameters read_wave(TomlTable& table, const FluidConfig& fluid, const std::string& axis) {
@@ -205,94 +192,6 @@ FlowPointer read_manufactured(TomlTable& table, const FluidConfig& fluid) {
   }
 }
 
-mpm::Side read_side(TomlTable& table, const std::string& key) {
-  if (!table.has(key)) return mpm::Side::joined();
-  return mpm::Side::wall(read_vector(table, key));
-}
-
-/// Rectangles, polygons and half-planes, together.
-std::function<bool(const Vec2&)> read_regions(TomlTable& scene) {
-  std::vector<std::function<bool(const Vec2&)>> regions;
-  for (TomlTable& table : scene.tables("fluid_region")) {
-    if (table.has("rectangle")) {
-      const std::vector<double> r = table.numbers("rectangle");
-      if (r.size() != 4 || !(r[0] < r[2] && r[1] < r[3]))
-        table.fail("rectangle", "must be [left, bottom, right, top] of some extent [m]");
-      regions.push_back(
-          [r](const Vec2& x) { return x.x() > r[0] && x.y() > r[1] && x.x() < r[2] && x.y() < r[3]; });
-    } else if (table.has("polygon")) {
-      const std::vector<double> c = table.numbers("polygon");
-      if (c.size() < 6 || c.size() % 2 != 0)
-        table.fail("polygon", "must be the corners [x1, y1, x2, y2, x3, y3, ...], three at least [m]");
-      regions.push_back([c](const Vec2& x) {  // a ray along x crosses the outline an odd number of times
-        bool inside = false;
-        for (std::size_t i = 0, j = c.size() - 2; i < c.size(); j = i, i += 2)
-          if ((c[i + 1] > x.y()) != (c[j + 1] > x.y()) &&
-              x.x() < c[i] + (c[j] - c[i]) * (x.y() - c[i + 1]) / (c[j + 1] - c[i + 1]))
-            inside = !inside;
-        return inside;
-      });
-    } else if (table.has("below")) {
-      const std::vector<double> r = table.numbers("below");
-      if (r.size() != 4 || (r[2] == 0 && r[3] == 0))
-        table.fail("below", "must be a half-plane [x, y, nx, ny]: a point of its edge, the normal out of it");
-      regions.push_back([r](const Vec2& x) { return (x.x() - r[0]) * r[2] + (x.y() - r[1]) * r[3] < 0; });
-    } else {
-      table.fail("rectangle", "is missing; a [[scene.fluid_region]] is a rectangle, a polygon or below");
-    }
-    table.refuse_unknown_keys();
-  }
-  if (regions.empty()) return nullptr;
-  return [regions](const Vec2& x) {
-    return std::any_of(regions.begin(), regions.end(), [&](const auto& is_inside) { return is_inside(x); });
-  };
-}
-
-/// Slip length of a wall [m]: none when absent, free above any length.
-void read_slip(TomlTable& table, const std::string& key, mpm::Side& side) {
-  if (!table.has(key)) return;
-  if (side.periodic) table.fail(key, "needs a wall on that side");
-  side.slip_length = table.positive(key);
-}
-
-FlowPointer read_box(TomlTable& table, const FluidConfig& fluid) {
-  BoxParameters p;
-  p.size = {table.positive("width"), table.positive("height")};
-  TomlTable walls = table.table("walls");
-  p.sides = {read_side(walls, "left"), read_side(walls, "right"), read_side(walls, "bottom"),
-             read_side(walls, "top")};
-  walls.refuse_unknown_keys();
-  const std::pair<const char*, mpm::Edge> edges[] = {{"left", mpm::Edge::Left},
-                                                     {"right", mpm::Edge::Right},
-                                                     {"bottom", mpm::Edge::Bottom},
-                                                     {"top", mpm::Edge::Top}};
-  std::vector<std::string> free;
-  if (table.has("slip")) free = table.texts("slip");
-  TomlTable lengths = table.table("slip_length");
-  for (const auto& [name, edge] : edges) {
-    mpm::Side& side = p.sides[static_cast<std::size_t>(edge)];
-    read_slip(lengths, name, side);
-    if (std::erase(free, name) == 0) continue;
-    if (side.periodic || side.slip_length > 0)
-      table.fail("slip", std::string(name) + " must be a wall, and have no slip_length beside");
-    side.slip_length = std::numeric_limits<double>::infinity();
-  }
-  if (!free.empty()) table.fail("slip", "may name left, right, bottom and top, each once: not " + free[0]);
-  lengths.refuse_unknown_keys();
-  if (table.has("body_acceleration")) p.body_acceleration = read_vector(table, "body_acceleration");
-  if (table.has("initial_velocity")) p.initial_velocity = read_vector(table, "initial_velocity");
-  p.velocity_scale = table.positive("velocity_scale");
-  p.is_fluid = read_regions(table);
-  if (table.has("hydrostatic_surface")) {
-    p.surface = table.positive("hydrostatic_surface");
-    if (!p.is_fluid || !fluid.solver.pressure || !(p.body_acceleration.y() < 0))
-      table.fail("hydrostatic_surface",
-                 "needs a [[scene.fluid_region]], fluid.pressure = true and a downward body_acceleration");
-  }
-  p.fluid = fluid.solver;
-  return std::make_shared<BoxFlow>(p);
-}
-
 using Reader = std::function<FlowPointer(TomlTable&, const FluidConfig&)>;
 
 const std::vector<std::pair<std::string, Reader>>& readers() {
@@ -314,6 +213,8 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
       {"taylor-green", read_taylor_green},
       {"lid-driven-cavity", read_cavity},
       {"manufactured", read_manufactured},
+      {"gravity-current", read_gravity_current},
+      {"standing-wave", read_standing_wave},
       {"box", read_box},
   };
   return table;

@@ -37,6 +37,12 @@ std::string start_in_words(const std::string& flow) {
       {"manufactured",
        "u = V0 y/H + a sin(2 pi y/H) sin(k x), v = -a k H/pi sin(pi y/H)^2 cos(k x), k = 2 pi/L, under the "
        "acceleration that makes th = k x - w t in place of k x a solution at all times"},
+      {"gravity-current",
+       "at rest, filled up to y = h(x) = front/aspect_ratio (1 - (x/front)^(n+1))^(1/(n+2)); gravity is that "
+       "under which the thin-layer similarity solution has this shape after the time age"},
+      {"standing-wave",
+       "filled up to y = depth, moving as the linear viscous wave whose surface is level and rises with "
+       "amplitude cos(k x), k = 2 pi/wavelength"},
       {"box", "initial_velocity everywhere"},
   };
   const auto found = words.find(flow);

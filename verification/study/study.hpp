@@ -61,6 +61,7 @@ std::string name(Axis axis);
 struct Ladder {
   Axis axis = Axis::None;
   std::vector<int> cells;        ///< Space: across, coarse to fine
+  bool along = false;            ///< Space: cells along grow with them; those of the scene are the coarsest's
   bool formal_exponent = false;  ///< Space: dt_exponent follows from each scheme's formal orders
   double dt_exponent = 2;        ///< Space: dt = time.dt (cells[0]/cells)^dt_exponent
   std::vector<double> dt;        ///< Time: coarse to fine [s]

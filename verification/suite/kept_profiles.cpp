@@ -2,6 +2,7 @@
 
 #include "reports/figures/figures.hpp"
 #include "reports/records/result_files.hpp"
+#include "reports/records/surface.hpp"
 
 namespace verification {
 
@@ -54,6 +55,8 @@ void KeptProfiles::write(const RunData& run, bool all) const {
   };
   keep(File::Profile, ".csv", true, [&] { reports::write_profile(out_, name, run.profile); });
   keep(File::History, ".history.csv", true, [&] { reports::write_history(out_, name, run.history); });
+  keep(File::History, ".surface.csv", !run.surface.empty(),
+       [&] { reports::write_surface(out_, name, run.surface); });
   // Of a run that failed there is nothing, and its figure says so.
   const auto awaited = [&](File file) {
     const auto drawn = drawn_.find(name);

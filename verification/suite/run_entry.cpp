@@ -49,6 +49,10 @@ class ByteWriter {
     const auto& [t, location, x, y, density, density_exact, pressure, pressure_exact] = row;
     put_all(t, location, x, y, density, density_exact, pressure, pressure_exact);
   }
+  void put_row(const reports::SurfaceRow& row) {
+    const auto& [t, front, height, kinetic, potential, elastic] = row;
+    put_all(t, front, height, kinetic, potential, elastic);
+  }
   void put_row(const mpm::Vec2& x) { put_all(x.x(), x.y()); }
   void put_row(const reports::StabilityRecord& row) {
     const auto& [study, basis, transfer, stepping, waves, motion, lattice, kind, r_predicted, cfl_predicted,
@@ -118,6 +122,10 @@ class ByteReader {
     auto& [t, location, x, y, density, density_exact, pressure, pressure_exact] = row;
     get_all(t, location, x, y, density, density_exact, pressure, pressure_exact);
   }
+  void get_row(reports::SurfaceRow& row) {
+    auto& [t, front, height, kinetic, potential, elastic] = row;
+    get_all(t, front, height, kinetic, potential, elastic);
+  }
   void get_row(mpm::Vec2& x) { get_all(x.x(), x.y()); }
   void get_row(reports::StabilityRecord& row) {
     auto& [study, basis, transfer, stepping, waves, motion, lattice, kind, r_predicted, cfl_predicted,
@@ -137,7 +145,8 @@ class ByteReader {
 
 std::string encode_run(const RunData& data) {
   // Every member of RunData: one that is new must be kept, or be left out here with a reason.
-  const auto& [plan, foreign, record, timing, profile, history, shear, state, start, probe, errors] = data;
+  const auto& [plan, foreign, record, timing, profile, history, shear, state, surface, start, probe, errors] =
+      data;
   static_cast<void>(plan);     // of the study that asks
   static_cast<void>(foreign);  // those are not kept
   static_cast<void>(errors);   // measured anew from the profile
@@ -153,6 +162,7 @@ std::string encode_run(const RunData& data) {
   writer.put(history);
   writer.put(shear);
   writer.put(state);
+  writer.put(surface);
   writer.put(start);
   writer.put(probe);
   return writer.take();
@@ -174,6 +184,7 @@ std::optional<RunData> decode_run(const std::string& bytes, const Study& study, 
   reader.get(data.history);
   reader.get(data.shear);
   reader.get(data.state);
+  reader.get(data.surface);
   reader.get(data.start);
   reader.get(data.probe);
   if (!reader.ended_well() || particles != plan.scene.particles()) return std::nullopt;

@@ -246,6 +246,7 @@ class SuiteRunner {
       run.history = {};
       run.shear = {};
       run.state = {};
+      run.surface = {};
       run.start = {};
     }
     const std::scoped_lock lock(mutex_);

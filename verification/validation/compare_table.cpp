@@ -60,7 +60,8 @@ class TableComparer {
   [[nodiscard]] double in_run(const RunFiles& run, const Measurement& row) const {
     const ValidatedQuantity& quantity = *find_validated_quantity(row.quantity);
     const double V = table_.scaled ? rules_.velocity : 1, L = table_.scaled ? rules_.length : 1;
-    return quantity.of(run, {row.t * L / V, row.x * L, row.y * L}) / (V * std::pow(L, quantity.length_power));
+    return quantity.of(run, {row.t * L / V, row.x * L, row.y * L}) /
+           (std::pow(V, quantity.velocity_power) * std::pow(L, quantity.length_power));
   }
 
   [[nodiscard]] Simulated simulate(const Measurement& row) const {

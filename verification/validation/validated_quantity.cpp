@@ -97,7 +97,18 @@ Interpolation interpolation(const std::vector<double>& lines, double value, cons
   return result;
 }
 
+/// The sample of the grid field at a place, where there is one; null where there is none.
+const Row* sample_at(const RunFiles& run, const Whereabouts& where) {
+  for (const Row& row : *run.profile)
+    if (row.location == "grid" && std::abs(row.t - where.t) <= 1e-9 * where.t &&
+        std::abs(row.x - where.x) <= 1e-9 * std::abs(where.x) &&
+        std::abs(row.y - where.y) <= 1e-9 * std::abs(where.y))
+      return &row;
+  return nullptr;
+}
+
 double field(const RunFiles& run, const Whereabouts& where, double Row::*component) {
+  if (const Row* sample = sample_at(run, where)) return sample->*component;
   const Lattice lattice = lattice_at(run, where.t);
   const Interpolation across = interpolation(lattice.y, where.y, "y");
   const Interpolation along =
@@ -140,35 +151,52 @@ double wall_shear_rate(const Lattice& lattice) {
   return std::abs(slope);
 }
 
-double probe_velocity(const RunFiles& run, const Whereabouts& where) {
-  if (!run.history || run.history->size() < 2) throw std::invalid_argument("the run has no history");
-  const auto& history = *run.history;
-  const double slack = 1e-9 * history.back().t;
-  if (where.t < history.front().t - slack || where.t > history.back().t + slack)
+/// A member of the rows of a record by sample, linear between them.
+template <class Row>
+double in_time(const std::vector<Row>* rows, double t, double Row::*value, const char* record) {
+  if (!rows || rows->size() < 2) throw std::invalid_argument(fmt::format("the run has no {}", record));
+  const double slack = 1e-9 * rows->back().t;
+  if (t < rows->front().t - slack || t > rows->back().t + slack)
     throw std::invalid_argument(
-        fmt::format("t = {:g} s lies outside of the run's history ({:g} to {:g} s): nothing is extrapolated; "
-                    "run it on, or take "
-                    "the row out",
-                    where.t, history.front().t, history.back().t));
+        fmt::format("t = {:g} s lies outside of the run's {} ({:g} to {:g} s): nothing is extrapolated; run "
+                    "it on, or take the row out",
+                    t, record, rows->front().t, rows->back().t));
   std::size_t k = 1;
-  while (k + 1 < history.size() && history[k].t < where.t) ++k;
-  const double f = (where.t - history[k - 1].t) / (history[k].t - history[k - 1].t);
-  return (1 - f) * history[k - 1].probe + f * history[k].probe;
+  while (k + 1 < rows->size() && (*rows)[k].t < t) ++k;
+  const Row &before = (*rows)[k - 1], &after = (*rows)[k];
+  const double f = (t - before.t) / (after.t - before.t);
+  return (1 - f) * before.*value + f * after.*value;
 }
 
-constexpr std::array<ValidatedQuantity, 6> quantities = {{
-    {"u", "m/s", true, 0, [](const RunFiles& r, const Whereabouts& w) { return field(r, w, &Row::u); }},
-    {"v", "m/s", true, 0, [](const RunFiles& r, const Whereabouts& w) { return field(r, w, &Row::v); }},
-    {"flow-rate", "m2/s", false, 1,
+double probe_velocity(const RunFiles& run, const Whereabouts& where) {
+  return in_time(run.history, where.t, &reports::HistoryRow::probe, "history");
+}
+
+double reached(const RunFiles& run, const Whereabouts& where, double reports::SurfaceRow::*value) {
+  return in_time(run.surface, where.t, value, "record of a free surface");
+}
+
+constexpr std::array<ValidatedQuantity, 8> quantities = {{
+    {"u", "m/s", true, false, 1, 0,
+     [](const RunFiles& r, const Whereabouts& w) { return field(r, w, &Row::u); }},
+    {"v", "m/s", true, false, 1, 0,
+     [](const RunFiles& r, const Whereabouts& w) { return field(r, w, &Row::v); }},
+    {"flow-rate", "m2/s", false, false, 1, 1,
      [](const RunFiles& r, const Whereabouts& w) { return flow_rate(lattice_at(r, w.t)); }},
-    {"mean-velocity", "m/s", false, 0,
+    {"mean-velocity", "m/s", false, false, 1, 0,
      [](const RunFiles& r, const Whereabouts& w) {
        const Lattice lattice = lattice_at(r, w.t);
        return flow_rate(lattice) / (lattice.y.back() - lattice.y.front());
      }},
-    {"wall-shear-rate", "1/s", false, -1,
+    {"wall-shear-rate", "1/s", false, false, 1, -1,
      [](const RunFiles& r, const Whereabouts& w) { return wall_shear_rate(lattice_at(r, w.t)); }},
-    {"probe", "m/s", false, 0, probe_velocity},
+    {"probe", "m/s", false, false, 1, 0, probe_velocity},
+    {"front", "m", false, true, 0, 1,
+     [](const RunFiles& r, const Whereabouts& w) { return reached(r, w, &reports::SurfaceRow::front); }},
+    {"column-height", "m", false, true, 0, 1,
+     [](const RunFiles& r, const Whereabouts& w) {
+       return reached(r, w, &reports::SurfaceRow::column_height);
+     }},
 }};
 
 }  // namespace

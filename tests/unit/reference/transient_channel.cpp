@@ -85,7 +85,7 @@ TEST_CASE("transient channel: the method follows the self-similar start-up and i
   const PowerLawStartUp exact(1e-6, 1.2, kForce);
   const double end = exact.arrival(0.5 * kHeight), begin = 0.25 * end;
   const SpectralLine line(std::vector<double>(32, 0.5 * kHeight / 32), 8);
-  const ShearDiffusion diffusion(curve, line, -kForce, ShearDiffusion::FarEnd::kSymmetry,
+  const ShearDiffusion diffusion(curve, line, -kForce, ShearDiffusion::FarEnd::kGivenRate,
                                  ShearDiffusion::Unknown::kRate);
   std::vector<double> w;
   for (double s : line.nodes()) w.push_back(exact.gradient(s, begin));

@@ -90,6 +90,15 @@ class SteadyNodes final : public ExactField {
 
 }  // namespace
 
+std::shared_ptr<const ExactField> channel_field(int axis,
+                                                std::shared_ptr<const reference::ChannelSolution> solution) {
+  return std::make_shared<ContinuousChannel>(axis, std::move(solution));
+}
+
+std::shared_ptr<const ExactField> steady_nodes_field(int axis, double height, std::vector<double> nodes) {
+  return std::make_shared<SteadyNodes>(axis, height, std::move(nodes));
+}
+
 ChannelFlow::ChannelFlow(const ChannelParameters& parameters) : parameters_(parameters) {
   const reference::SteadyChannel steady(parameters.height, parameters.body_acceleration,
                                         parameters.plate_velocity, parameters.fluid.curve);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reference/channel/channel_problem.hpp"
+#include "reference/channel/channel_solution.hpp"
 #include "reference/channel/ideal_yield_channel.hpp"
 #include "verification/flows/flow.hpp"
 #include "verification/flows/fluid_reader.hpp"
@@ -19,6 +20,12 @@ struct ChannelParameters {
   double initial_acceleration = 0;  ///< F before t = 0, whose steady flow is the start [m/s2]; 0: from rest
   FluidConfig fluid;
 };
+
+/// A channel's solution as what runs along an axis are compared with.
+std::shared_ptr<const ExactField> channel_field(int axis,
+                                                std::shared_ptr<const reference::ChannelSolution> solution);
+/// Steady nodal values of the linear scheme, from the resting plate up; particles and other points have none.
+std::shared_ptr<const ExactField> steady_nodes_field(int axis, double height, std::vector<double> nodes);
 
 class ChannelFlow final : public Flow {
  public:

@@ -4,6 +4,9 @@
 #include <limits>
 
 #include "reference/channel/traction/stress_driven_channel.hpp"
+#include "reference/transient/transient_channel.hpp"
+#include "verification/flows/channel/channel_flow.hpp"
+#include "verification/flows/reference_store.hpp"
 
 namespace verification {
 namespace {
@@ -48,12 +51,34 @@ mpm::Scene StressDrivenFlow::scene(const Discretisation& d) const {
   return scene;
 }
 
-std::shared_ptr<const ExactField> StressDrivenFlow::exact(const std::vector<double>&) const {
+std::optional<CostlyReference> StressDrivenFlow::costly_reference(const std::vector<double>& times) const {
+  if (parameters_.fluid.curve.newtonian()) return std::nullopt;  // a series
+  const reference::ChannelProblem asked = problem(times);
+  return CostlyReference{reference::transient_name(asked), asked.last_time()};
+}
+
+reference::ChannelProblem StressDrivenFlow::problem(const std::vector<double>& times) const {
+  return {parameters_.height,
+          0,
+          0,
+          parameters_.fluid.curve,
+          times,
+          0,
+          parameters_.stress / parameters_.fluid.solver.density};
+}
+
+std::shared_ptr<const ExactField> StressDrivenFlow::exact(const std::vector<double>& times) const {
   const auto nu = parameters_.fluid.curve.newtonian();
-  if (!nu) return nullptr;
+  if (!nu) return channel_field(parameters_.axis, channel_solution(problem(times)));
   return std::make_shared<StressDrivenField>(
       parameters_.axis, reference::StressDrivenChannel(
                             parameters_.height, *nu, parameters_.stress / parameters_.fluid.solver.density));
+}
+
+std::shared_ptr<const ExactField> StressDrivenFlow::steady_nodes(const Discretisation& d) const {
+  std::vector<double> nodes;
+  for (int j = 0; j <= d.cells; ++j) nodes.push_back(rate_ * parameters_.height * j / d.cells);
+  return steady_nodes_field(parameters_.axis, parameters_.height, std::move(nodes));
 }
 
 /// At the side that is pulled: nothing else decides its velocity.

@@ -36,7 +36,7 @@ MeasurementTable table(std::vector<Measurement> rows) {
 
 TEST_CASE("Quantities between samples: cubic, exact for a cubic field", "[validation]") {
   const auto samples = channel(5, 1);
-  const RunFiles run{&samples, nullptr};
+  const RunFiles run{&samples, nullptr, nullptr};
   const auto of = [&](const char* name, double x, double y) {
     return find_validated_quantity(name)->of(run, {1, x, y});
   };
@@ -65,7 +65,7 @@ TEST_CASE("A table beside a ladder: the three parts of u_val, the verdict, the j
   }
   for (const auto& level : levels) runs.levels.push_back({&level, nullptr});
   const auto minus = channel(8, 0.99), plus = channel(8, 1.01);
-  runs.sensitivities.emplace_back(RunFiles{&minus, nullptr}, RunFiles{&plus, nullptr});
+  runs.sensitivities.emplace_back(RunFiles{&minus, nullptr, nullptr}, RunFiles{&plus, nullptr, nullptr});
   ComparisonRules rules;
   rules.bears["u"] = {0.01, "test"};
 
