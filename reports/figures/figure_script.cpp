@@ -137,6 +137,11 @@ void FigureScript::band(const Curve& lower, const Curve& upper, const std::strin
            "");
 }
 
+void FigureScript::areas(const Curve& polygons, const std::string& colour, const std::string& legend) {
+  add_plot(add_data(polygons),
+           fmt::format("with filledcurves closed fs solid 1 noborder lc rgb '{}'", colour), legend);
+}
+
 void FigureScript::boxes(const Curve& tops, const std::string& colour, const std::string& legend) {
   // A width of its own: gnuplot takes it from the distance of neighbours, and draws nothing for a box alone.
   const std::string width = "set boxwidth 0.8 absolute";

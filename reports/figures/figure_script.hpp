@@ -55,6 +55,8 @@ class FigureScript {
   void error_bars(const std::vector<ErrorBar>& bars, const std::string& colour, const std::string& legend);
   /// The area between two curves over the same places, pale.
   void band(const Curve& lower, const Curve& upper, const std::string& colour);
+  /// Filled polygons, each closed; a point that is not finite stands between two.
+  void areas(const Curve& polygons, const std::string& colour, const std::string& legend);
   /// Bars from zero over whole numbers, nearly as wide as these lie apart.
   void boxes(const Curve& tops, const std::string& colour, const std::string& legend);
   /// A legend entry without data.

@@ -138,6 +138,10 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
     figure = work_precision_figure(record, results);
   } else if (record.kind == "stability-map") {
     figure = stability_figure(record, results);
+  } else if (record.kind == "regularisation") {
+    figure = regularisation_figure(record, results);
+  } else if (record.kind == "yielded") {
+    figure = yielded_figure(dir, record, results);
   } else if (record.kind == "validation") {
     figure = validation_figure(record, results);
   } else if (record.kind == "validation-parts") {
@@ -148,7 +152,7 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
     throw IoError(
         fmt::format("figures.csv: figure '{}' is of unknown kind '{}'; known are profiles, history, "
                     "energy, convergence, work-precision, shear-rate, viscosity, pressure, stability-map, "
-                    "validation, validation-parts, computed-measured",
+                    "regularisation, yielded, validation, validation-parts, computed-measured",
                     record.figure, record.kind));
   }
   figure.name = record.figure;

@@ -37,6 +37,11 @@ Figure work_precision_figure(const FigureRecord& record, const Results& results)
 /// Stable regions in the plane of r = nu dt/h^2 and c dt/h: predicted boundaries, measured points.
 Figure stability_figure(const FigureRecord& record, const Results& results);
 
+/// Kind "regularisation": error over mesh and regularisation of a yield stress, and a path through the plane.
+Figure regularisation_figure(const FigureRecord& record, const Results& results);
+/// Kind "yielded": where the fluid of a box flows at one time, and its stream lines; a diagram a run.
+Figure yielded_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
+
 /// Kind "validation": measured values with error bars, simulated ones with their band.
 Figure validation_figure(const FigureRecord& record, const Results& results);
 /// Kind "validation-parts": the three parts of u_val^2 of every point, as bars.

@@ -1,5 +1,7 @@
 #include "verification/reading/figure_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,6 +36,48 @@ void read_map(TomlTable& table, const Study& study, reports::FigureRecord& figur
   figure.location = joined(motions);
 }
 
+/// The whole plane of meshes and regularisations, and the variant that is a path through it.
+void read_plane(TomlTable& table, const Study& study, reports::FigureRecord& figure) {
+  const std::string path = table.text("path");
+  if (std::ranges::count(study.variants, path) == 0)
+    table.fail("path", "'" + path + "' is no variant of this study");
+  std::vector<std::string> runs, labels, on_path;
+  for (const PlannedRun& run : study.runs) {
+    const auto* curve = run.scene.fluid.curve.yielding();
+    if (!curve) table.fail("kind", "is for fluids with a yield stress");
+    runs.push_back(run.run);
+    labels.push_back(fmt::format("{:.9g}", curve->m));
+    if (run.variant == path) on_path.push_back(run.run);
+  }
+  figure.runs = joined(runs);
+  figure.labels = joined(labels);
+  figure.across = joined(on_path);
+  figure.norm = table.text("norm", "l2");
+  figure.location = "grid";
+}
+
+/// Runs of boxes, finest levels.
+void read_yielded(TomlTable& table, const Study& study, reports::FigureRecord& figure) {
+  const auto variants = table.has("variants") ? table.texts("variants") : study.variants;
+  std::vector<std::string> runs, rates;
+  figure.t = table.number("t");
+  for (const std::string& variant : variants) {
+    const auto ladder = study.runs_of(variant);
+    if (ladder.empty()) table.fail("variants", "'" + variant + "' is no variant of this study");
+    const SceneConfig& scene = ladder.back()->scene;
+    const auto* curve = scene.fluid.curve.yielding();
+    if (!curve || scene.flow->tabulated_points().empty())
+      table.fail("kind", "is for cavities of fluids with a yield stress");
+    if (std::ranges::count(scene.outputs, figure.t) == 0) table.fail("t", "is no output time of the study");
+    runs.push_back(ladder.back()->run);
+    rates.push_back(fmt::format("{:.9g}", scene.fluid.curve.rate(curve->tau_y)));
+  }
+  figure.runs = joined(runs);
+  figure.labels = table.has("labels") ? joined(table.texts("labels")) : joined(variants);
+  figure.component = joined(rates);
+  figure.location = "grid";
+}
+
 }  // namespace
 
 Record record_of_figure(const std::string& kind) {
@@ -46,9 +90,9 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
   reports::FigureRecord figure;
   figure.study = study.name;
   figure.kind = table.text("kind");
-  static const std::vector<std::string> kinds = {"profiles",    "history",        "energy",
-                                                 "convergence", "work-precision", "shear-rate",
-                                                 "viscosity",   "pressure",       "stability-map"};
+  static const std::vector<std::string> kinds = {
+      "profiles",  "history",  "energy",        "convergence", "work-precision", "shear-rate",
+      "viscosity", "pressure", "stability-map", "yielded",     "regularisation"};
   if (std::ranges::count(kinds, figure.kind) == 0) table.fail("kind", "must be one of: " + joined(kinds));
   figure.title = table.text("title");
   if (figure.kind == "stability-map") {
@@ -58,6 +102,12 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
     return figure;
   }
   if (study.runs.empty()) table.fail("kind", "needs runs, and a study with [stability] has none");
+  if (figure.kind == "regularisation" || figure.kind == "yielded") {
+    (figure.kind == "yielded" ? read_yielded : read_plane)(table, study, figure);
+    read_name(table, study, figure);
+    table.refuse_unknown_keys();
+    return figure;
+  }
   figure.norm = table.text("norm", "l2");
   if (figure.norm != "l1" && figure.norm != "l2" && figure.norm != "linf")
     table.fail("norm", "must be \"l1\", \"l2\" or \"linf\"");

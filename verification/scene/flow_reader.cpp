@@ -168,7 +168,8 @@ FlowPointer read_cavity(TomlTable& table, const FluidConfig& fluid) {
   if (!fluid.solver.pressure && !fluid.incompressible)
     table.fail("flow",
                "a cavity needs fluid.pressure = true or \"incompressible\": pressure balances its advection");
-  newtonian_viscosity(table, fluid);  // refuses others: their computed reference is not good enough yet
+  // Refuses others than Newtonian fluids and yield stresses: their computed reference is not good enough yet.
+  if (!fluid.curve.yielding()) newtonian_viscosity(table, fluid);
   LidDrivenCavityParameters p{table.positive("side"), table.positive("lid_velocity"), fluid.curve,
                               fluid.solver};
   if (!fluid.incompressible && p.lid_velocity >= 0.5 * p.fluid.sound_speed())

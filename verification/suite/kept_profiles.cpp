@@ -10,13 +10,14 @@ KeptProfiles::KeptProfiles(const std::vector<Study>& studies, std::filesystem::p
     : out_(std::move(out)), kept_(kept) {
   static const std::map<std::string, File> file_of = {
       {"profiles", File::Profile}, {"history", File::History}, {"energy", File::History},
-      {"shear-rate", File::Shear}, {"viscosity", File::Shear}, {"pressure", File::State}};
+      {"shear-rate", File::Shear}, {"viscosity", File::Shear}, {"pressure", File::State},
+      {"yielded", File::Profile}};
   for (const Study& study : studies)
     for (const reports::FigureRecord& figure : study.figures) {
       // Drawn from the tables alone.
       if (figure.kind == "convergence" || figure.kind == "work-precision" || figure.kind == "stability-map" ||
-          figure.kind == "validation" || figure.kind == "validation-parts" ||
-          figure.kind == "computed-measured")
+          figure.kind == "regularisation" || figure.kind == "validation" ||
+          figure.kind == "validation-parts" || figure.kind == "computed-measured")
         continue;
       std::vector<std::string> runs = reports::split_list(figure.runs);
       if (runs.empty())

@@ -20,7 +20,7 @@ namespace mpm::incompressible {
 /// wherever shear stress grows with shear rate. A factorised matrix is kept, over steps too, while it still
 /// contracts the error (chord method).
 template <int K>
-class ShearViscosity final : public Viscosity {
+class ShearViscosity : public Viscosity {
  public:
   ShearViscosity(const Scene& scene, const VelocitySpace& space, const SparseMatrix& mass, FlowLaw law)
       : law_(std::move(law)), psi_(space), mass_(mass) {
@@ -108,8 +108,16 @@ class ShearViscosity final : public Viscosity {
   }
 
   /// The symmetric matrix that Newton's method takes for dN/dw: all but what vanishes where walls are met.
-  [[nodiscard]] SparseMatrix tangent(const VectorXd& w) const {
-    const State state = state_of(w);
+  [[nodiscard]] SparseMatrix tangent(const VectorXd& w) const { return tangent(state_of(w), w.size()); }
+
+ protected:
+  /// The field at all sites, inner ones first.
+  struct State {
+    MatrixXd psi;
+    VectorXd xy, shear, nu, slope;  // psi_xy, psi_yy - psi_xx [1/s]; the law there
+  };
+
+  [[nodiscard]] SparseMatrix tangent(const State& state, Eigen::Index size_of_w) const {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(inner_.size() / ((K + 1) * (K + 1)) * size * size);
     CellBlock block;
@@ -145,12 +153,11 @@ class ShearViscosity final : public Viscosity {
       }
       scatter(entries, s, block);
     }
-    SparseMatrix matrix(w.size(), w.size());
+    SparseMatrix matrix(size_of_w, size_of_w);
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
   }
 
- private:
   static constexpr int size = (K + 1) * (K + 1);
   static constexpr double penalty = 6;  // times k/h, as ViscousForm
   // Round-off in the residual, amplified by the condition of M + a N, leaves a few 1e-13.
@@ -179,11 +186,6 @@ class ShearViscosity final : public Viscosity {
     double holds;  // [1/m]
     Wall(const Line& lx, const Line& ly, double weight, const Side* of, int axis, double normal, double held)
         : Site{lx, ly, weight}, side(of), across(axis), sign(normal), holds(held) {}
-  };
-  /// The field at all sites, inner ones first.
-  struct State {
-    MatrixXd psi;
-    VectorXd xy, shear, nu, slope;  // psi_xy, psi_yy - psi_xx [1/s]; the law there
   };
   struct Tangent {
     double rate;   // d u_t/dn [1/s]
@@ -222,6 +224,14 @@ class ShearViscosity final : public Viscosity {
   }
 
   [[nodiscard]] State state_of(const VectorXd& w) const {
+    State state = rates_of(w);
+    const VectorXd q = 4 * state.xy.array().square() + state.shear.array().square();
+    law_(q, state.nu, state.slope);
+    return state;
+  }
+
+  /// Without the law.
+  [[nodiscard]] State rates_of(const VectorXd& w) const {
     State state;
     state.psi = psi_.extended(w);
     const auto count = static_cast<Eigen::Index>(inner_.size() + walls_.size());
@@ -235,8 +245,6 @@ class ShearViscosity final : public Viscosity {
     };
     for (const Site& s : inner_) look(s);
     for (const Wall& s : walls_) look(s);
-    const VectorXd q = 4 * state.xy.array().square() + state.shear.array().square();
-    law_(q, state.nu, state.slope);
     return state;
   }
 

@@ -2,22 +2,33 @@
 
 #include "solver/incompressible/viscosity/newtonian_viscosity.hpp"
 #include "solver/incompressible/viscosity/shear_viscosity.hpp"
+#include "solver/incompressible/viscosity/yield_viscosity.hpp"
 
 namespace mpm::incompressible {
+namespace {
+
+template <int K>
+std::unique_ptr<Viscosity> make(const Scene& scene, const VelocitySpace& space, const SparseMatrix& mass) {
+  if (const auto* yielding = std::get_if<HerschelBulkley>(&scene.fluid.rheology))
+    return std::make_unique<YieldViscosity<K>>(scene, space, mass, *yielding);
+  return std::make_unique<ShearViscosity<K>>(scene, space, mass,
+                                             flow_law(scene.fluid.rheology, scene.fluid.density));
+}
+
+}  // namespace
 
 std::unique_ptr<Viscosity> make_viscosity(const Scene& scene, const VelocitySpace& space,
                                           const SparseMatrix& basis, const SparseMatrix& mass) {
   const double density = scene.fluid.density;
   if (const auto* newtonian = std::get_if<Newtonian>(&scene.fluid.rheology))
     return std::make_unique<NewtonianViscosity>(scene, space, basis, mass, newtonian->viscosity() / density);
-  const FlowLaw law = flow_law(scene.fluid.rheology, density);
   switch (space.degree()) {
     case 2:
-      return std::make_unique<ShearViscosity<2>>(scene, space, mass, law);
+      return make<2>(scene, space, mass);
     case 3:
-      return std::make_unique<ShearViscosity<3>>(scene, space, mass, law);
+      return make<3>(scene, space, mass);
     default:
-      return std::make_unique<ShearViscosity<4>>(scene, space, mass, law);
+      return make<4>(scene, space, mass);
   }
 }
 

@@ -40,7 +40,15 @@ class TabulatedField final : public ExactField {
   std::string description_;
 };
 
-constexpr int coarsest = 32;  // cells of the finite volumes; the other meshes have 64 and 128
+/// Cells of the coarsest of three meshes of finite volumes, each of twice the cells of the one before. The
+/// viscosity of a plug takes successive substitution some hundred rounds, and a minute on 128 cells.
+int coarsest(const reference::FlowCurve& curve) {
+  return curve.yielding() ? 16 : 32;
+}
+
+/// Squares along a side of the lattice on which a fluid with a yield stress is sampled: it shows where the
+/// fluid yields, and holds the places of the tables.
+constexpr int lattice_squares = 64;
 
 /// The centre lines of a fluid, in units of L and U. Each is computed once a process, whoever asks.
 std::vector<reference::CavityLine> computed_lines(const LidDrivenCavityParameters& p) {
@@ -54,7 +62,7 @@ std::vector<reference::CavityLine> computed_lines(const LidDrivenCavityParameter
       entry = std::async(std::launch::deferred, [p] {
                 const double rate = p.lid_velocity / p.side, diffusivity = p.lid_velocity * p.side;
                 return reference::cavity_centre_lines(
-                    [&](double w) { return p.curve.viscosity(w * rate) / diffusivity; }, coarsest);
+                    [&](double w) { return p.curve.viscosity(w * rate) / diffusivity; }, coarsest(p.curve));
               }).share();
     lines = entry;
   }
@@ -102,7 +110,9 @@ std::shared_ptr<const ExactField> LidDrivenCavityFlow::exact(const std::vector<d
       largest = std::max(largest, line.uncertainty);
     }
     description = fmt::format(
-        "steady state: finite volumes on 32, 64 and 128 cells, extrapolated, to {:.1e} of the lid's velocity",
+        "steady state: finite volumes on {0}, {1} and {2} cells, extrapolated, to {3:.1e} of the lid's "
+        "velocity",
+        coarsest(parameters_.curve), 2 * coarsest(parameters_.curve), 4 * coarsest(parameters_.curve),
         largest);
   }
   return std::make_shared<TabulatedField>(points, parameters_.side, parameters_.lid_velocity, description);
@@ -111,6 +121,12 @@ std::shared_ptr<const ExactField> LidDrivenCavityFlow::exact(const std::vector<d
 mpm::VectorField LidDrivenCavityFlow::tabulated_points() const {
   mpm::VectorField points;
   if (!has_exact()) return points;
+  if (parameters_.curve.yielding()) {
+    for (int j = 0; j <= lattice_squares; ++j)
+      for (int i = 0; i <= lattice_squares; ++i)
+        points.emplace_back(parameters_.side * i / lattice_squares, parameters_.side * j / lattice_squares);
+    return points;
+  }
   for (const reference::CavityPoint& point : reference::marchi_2009(100))  // the same places for any fluid
     points.emplace_back(parameters_.side * point.x, parameters_.side * point.y);
   return points;

@@ -4,6 +4,7 @@
 #include "solver/incompressible/stokes.hpp"
 #include "solver/incompressible/viscosity/newtonian_viscosity.hpp"
 #include "solver/incompressible/viscosity/shear_viscosity.hpp"
+#include "solver/incompressible/viscosity/yield_viscosity.hpp"
 #include "tests/catch.hpp"
 
 using namespace mpm;
@@ -107,6 +108,31 @@ TEST_CASE("Newton's method solves for fluids that thin and thicken, from rest an
     CHECK((inertia + 0.05 * viscosity.force(solution.w, 0)).norm() < 1e-8 * inertia.norm());
     CHECK(inertia.norm() > 0);
   }
+}
+
+TEST_CASE("a yield stress is solved for beside a lid that starts, whatever the regularisation",
+          "[incompressible]") {
+  for (const double n : {0.6, 1.0, 1.4})
+    for (const double m : {10.0, 1e3, 1e5}) {
+      INFO("n = " << n << ", m = " << m);
+      Scene scene = box(true, true);
+      const HerschelBulkley fluid{0.6, n, 1.2, m, 1e-6, 10};
+      scene.fluid.rheology = fluid;
+      const Setting s(scene, 3);
+      YieldViscosity<3> viscosity(s.scene, s.space, s.mass, fluid);
+      const VectorXd load = VectorXd::Zero(s.basis.cols());
+      const auto solution = viscosity.solved(0.05, 0, load, load);
+      REQUIRE(solution.converged);
+      const VectorXd inertia = s.mass * solution.w;
+      CHECK(inertia.norm() > 0);
+      // The same equations, of the law itself. Where the fluid is stiff its force is m tau_y times what
+      // round-off leaves of a rate.
+      CHECK((inertia + 0.05 * viscosity.force(solution.w, 0)).norm() <
+            1e-8 * std::max(1.0, 1e-3 * m) * inertia.norm());
+      const auto again = viscosity.solved(0.05, 0, load, solution.w);
+      CHECK(again.converged);
+      CHECK((again.w - solution.w).norm() < 1e-8 * solution.w.norm());
+    }
 }
 
 TEST_CASE("a power-law fluid in a channel comes to the steady profile", "[incompressible]") {
