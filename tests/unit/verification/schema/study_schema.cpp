@@ -40,6 +40,10 @@ std::vector<std::string> further_studies() {
       channel + "[scheme]\nmethod = \"sph\"\nwall = \"morris\"\nwall_limit = 1.5\nsmoothing = 1\n" +
           any_check,
       channel +
+          "[matrix]\nmethod = \"sph\"\nkernel = [\"cubic\"]\nwall = [\"mirror\"]\n"
+          "density = [\"continuity\"]\n" +
+          any_check,
+      channel +
           "[solver]\ncommand = [\"true\"]\nenvironment = {A = \"b\"}\ndelivers = [\"profile\"]\n"
           "locations = [\"grid\"]\npoints_across = 4\npoints_reason = \"any\"\n" +
           any_check,
