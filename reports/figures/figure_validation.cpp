@@ -41,6 +41,18 @@ std::vector<std::string> variants_of(const std::vector<const ValidationRecord*>&
   return variants;
 }
 
+/// Tic marks at 1, 2 and 5 times powers of ten within a range, as gnuplot lists them: on less than a few
+/// decades its own, one a decade, leave an axis bare.
+std::string tics_between(double lower, double upper) {
+  std::string tics;
+  for (int decade = static_cast<int>(std::floor(std::log10(lower))); std::pow(10, decade) <= upper; ++decade)
+    for (const double mantissa : {1.0, 2.0, 5.0}) {
+      const double at = mantissa * std::pow(10, decade);
+      if (at >= lower && at <= upper) tics += fmt::format("{}'{:g}' {:g}", tics.empty() ? "" : ", ", at, at);
+    }
+  return "(" + tics + ")";
+}
+
 const char* const point_caption =
     "Black: measured, bars of k u_D. Colour: simulated, band (bar where there is one value) of "
     "k sqrt(u_num^2 + u_input^2).";
@@ -134,9 +146,14 @@ Figure computed_measured_figure(const FigureRecord& record, const Results& resul
   FigureScript script(record.title, "measured " + record.component, "computed " + record.component);
   script.logarithmic_x();
   script.logarithmic_y();
-  const auto ray = [&](double factor) {
-    return Curve{{least / 1.2, factor * least / 1.2}, {most * 1.2, factor * most * 1.2}};
-  };
+  const double lower = least / 1.25, upper = most * 1.25;
+  script.x_range(lower, upper);
+  script.y_range(lower, upper);
+  constexpr double few_decades = 1e3;
+  if (upper < few_decades * lower)
+    for (const char* axis : {"x", "y"})
+      script.statement(fmt::format("set {}tics {}", axis, tics_between(lower, upper)));
+  const auto ray = [&](double factor) { return Curve{{lower, factor * lower}, {upper, factor * upper}}; };
   const double spread_e = std::exp(2 * bias->data_scatter), spread_m = std::exp(2 * bias->scatter);
   script.line(ray(1), "#000000", "equal", 1.3);
   script.line(ray(spread_e), "#888888", "± 2 sigma_E", 1, "2");

@@ -58,7 +58,8 @@ std::string point_row(const ValidationRecord& r) {
       number(r.largest, 3), r.borne ? "pass" : "fail", html_text(r.verdict), html_text(r.note));
 }
 
-std::string joint_line(const JointValidationRecord& joint) {
+/// With the table's source where it is the first line on it, and its number afterwards.
+std::string joint_line(const JointValidationRecord& joint, std::vector<std::string>& sources) {
   std::string text = fmt::format("<p><b>{}</b>{}: {} value{}", html_text(joint.quantity),
                                  html_text(joint.variant.empty() ? "" : ", " + joint.variant), joint.points,
                                  joint.points == 1 ? "" : "s");
@@ -67,7 +68,11 @@ std::string joint_line(const JointValidationRecord& joint) {
                         number(joint.p_value, 2));
   if (!std::isnan(joint.bias))
     text += fmt::format("; bias {}, scatter {}", number(joint.bias), number(joint.scatter, 2));
-  text += ". <span class=\"faint\">" + html_text(joint.source);
+  const auto told = std::ranges::find(sources, joint.source);
+  text += fmt::format(". <span class=\"faint\">[{}]", told - sources.begin() + 1);
+  if (told != sources.end()) return text + "</span></p>\n";
+  sources.push_back(joint.source);
+  text += " " + html_text(joint.source);
   if (!joint.obtained.empty()) text += ". " + html_text(joint.obtained);
   if (!joint.licence.empty()) text += ". " + html_text(joint.licence);
   return text + "</span></p>\n";
@@ -79,8 +84,9 @@ std::string html_validation(const Results& results, const Chapter& chapter, Page
   std::string text;
   for (const StudyRecord& study : chapter.studies) {
     std::string rows, tables;
+    std::vector<std::string> sources;
     for (const JointValidationRecord& joint : results.joint_validation)
-      if (joint.study == study.study) tables += joint_line(joint);
+      if (joint.study == study.study) tables += joint_line(joint, sources);
     for (const ValidationRecord& r : results.validation)
       if (r.study == study.study) rows += point_row(r);
     if (rows.empty()) continue;
