@@ -14,7 +14,7 @@
 namespace reports {
 namespace {
 
-constexpr int tiles = 48;  // of the plane, along either direction
+constexpr int tiles = 40;  // of the plane, along either direction
 
 /// Errors on meshes and regularisations; every pair of them has one, or NaN.
 struct Plane {

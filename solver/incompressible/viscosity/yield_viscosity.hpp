@@ -52,7 +52,7 @@ class YieldViscosity final : public ShearViscosity<K> {
 
  private:
   static constexpr int most_iterations = 200;
-  static constexpr double rate_tolerance = 1e-9;  // of the largest rate
+  static constexpr double rate_tolerance = 1e-11;  // of the largest rate
   static constexpr double round_off = 1e-8;       // as YieldNewton
 
   [[nodiscard]] static Eigen::Vector2d rate(const State& s, Eigen::Index i) {
