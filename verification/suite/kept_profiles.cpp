@@ -9,7 +9,8 @@ KeptProfiles::KeptProfiles(const std::vector<Study>& studies, std::filesystem::p
     : out_(std::move(out)), kept_(kept) {
   static const std::map<std::string, File> file_of = {
       {"profiles", File::Profile}, {"history", File::History}, {"energy", File::History},
-      {"shear-rate", File::Shear}, {"viscosity", File::Shear}, {"pressure", File::State}};
+      {"shear-rate", File::Shear}, {"viscosity", File::Shear}, {"pressure", File::State},
+      {"occupancy", File::State}};
   for (const Study& study : studies)
     for (const reports::FigureRecord& figure : study.figures) {
       // Drawn from the tables alone.
