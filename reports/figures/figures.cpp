@@ -132,6 +132,8 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
     figure = shear_figure(dir, record, results);
   } else if (record.kind == "pressure") {
     figure = pressure_figure(dir, record, results);
+  } else if (record.kind == "occupancy") {
+    figure = occupancy_figure(dir, record, results);
   } else if (record.kind == "convergence") {
     figure = convergence_figure(record, results);
   } else if (record.kind == "work-precision") {
@@ -149,11 +151,11 @@ Figure build_figure(const std::filesystem::path& dir, const FigureRecord& record
   } else if (record.kind == "computed-measured") {
     figure = computed_measured_figure(record, results);
   } else {
-    throw IoError(
-        fmt::format("figures.csv: figure '{}' is of unknown kind '{}'; known are profiles, history, "
-                    "energy, convergence, work-precision, shear-rate, viscosity, pressure, stability-map, "
-                    "regularisation, yielded, validation, validation-parts, computed-measured",
-                    record.figure, record.kind));
+    throw IoError(fmt::format(
+        "figures.csv: figure '{}' is of unknown kind '{}'; known are profiles, history, "
+        "energy, convergence, work-precision, shear-rate, viscosity, pressure, occupancy, stability-map, "
+        "regularisation, yielded, validation, validation-parts, computed-measured",
+        record.figure, record.kind));
   }
   figure.name = record.figure;
   figure.study = record.study;

@@ -32,6 +32,8 @@ Figure shear_figure(const std::filesystem::path& dir, const FigureRecord& record
 
 /// Kind "pressure": pressure of the particles across the flow at one time, one colour a run.
 Figure pressure_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
+/// Kind "occupancy": particles of the emptiest and of the fullest cell over time.
+Figure occupancy_figure(const std::filesystem::path& dir, const FigureRecord& record, const Results& results);
 Figure convergence_figure(const FigureRecord& record, const Results& results);
 Figure work_precision_figure(const FigureRecord& record, const Results& results);
 /// Stable regions in the plane of r = nu dt/h^2 and c dt/h: predicted boundaries, measured points.

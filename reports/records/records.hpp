@@ -250,7 +250,7 @@ struct FigureRecord {
   std::string figure;  ///< file stem, unique
   std::string study;
   /// "profiles", "history", "energy", "convergence", "work-precision", "shear-rate", "viscosity", "pressure",
-  /// "stability-map", "validation", "validation-parts", "computed-measured"
+  /// "occupancy", "stability-map", "validation", "validation-parts", "computed-measured"
   std::string kind;
   std::string title;  ///< the claim that the figure shows
   /// Runs to draw (profiles, history, work-precision); "" = all of the study. stability-map: schemes, as

@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solver/incompressible/particle_fit.hpp"
+#include "solver/incompressible/pressure.hpp"
+#include "solver/incompressible/pressure_field.hpp"
 #include "solver/incompressible/stokes.hpp"
 #include "solver/scene/seeding.hpp"
 #include "solver/simulation.hpp"
@@ -20,15 +23,16 @@ namespace mpm::incompressible {
 /// part, as the constraint on the midpoint asks, alternates from step to step what the mesh cannot resolve;
 /// the mean of two successive ones does not.
 template <int K>
-class IncompressibleSolver final : public Simulation {
+class IncompressibleSolver final : public Simulation, public PressureField {
  public:
-  IncompressibleSolver(const Scene& scene, const IncompressibleScheme& scheme, int threads)
+  IncompressibleSolver(const Scene& scene, const IncompressibleScheme& scheme, int threads,
+                       const WallShares& shares)
       : scene_(scene),
         scheme_(scheme),
         team_(threads),
         space_(scene, K),
         mass_(space_),
-        stokes_(scene_, space_, mass_),
+        stokes_(scene_, space_, mass_, shares),
         fit_(space_, mass_, scheme.regularisation),
         particles_(seed_particles(scene)),
         lattice_(particles_.position),
@@ -58,6 +62,7 @@ class IncompressibleSolver final : public Simulation {
     const VectorXd gradient = fitted - start;
     if (last_gradient_.size() == 0) last_gradient_ = gradient / dt;
     field_ = step.end - 0.5 * (gradient + dt * last_gradient_);
+    before_ = std::exchange(taken_, {field_ - fitted, t, dt, step.stages});
     last_gradient_ =
         gradient / dt;  // as much as the step is long, and the last one before an output is shorter
     impulse_ += scene_.fluid.density * step.impulse;
@@ -92,6 +97,22 @@ class IncompressibleSolver final : public Simulation {
     return values;
   }
 
+  /// From what the last two steps had to be given, each at its middle, along a straight line.
+  [[nodiscard]] std::vector<double> grid_pressure(const VectorField& points) const override {
+    if (taken_.dt == 0) return {};
+    auto load = stokes_.load_of_pressure(taken_.change, taken_.dt, taken_.stages);
+    if (!load) return {};
+    if (before_.dt > 0) {
+      const auto earlier = stokes_.load_of_pressure(before_.change, before_.dt, before_.stages);
+      *load += taken_.dt / (taken_.dt + before_.dt) * (*load - *earlier);
+    }
+    const Pressure pressure(space_);
+    const MatrixXd p = scene_.fluid.density * pressure.balancing(*load);
+    std::vector<double> values;
+    for (const Vec2& x : points) values.push_back(pressure.value(p, x));
+    return values;
+  }
+
   [[nodiscard]] Totals totals() const override { return totals_of(particles_, impulse_); }
 
   /// Fewest and most particles of a cell where the last fit was taken.
@@ -99,6 +120,13 @@ class IncompressibleSolver final : public Simulation {
 
  private:
   static constexpr std::size_t block = 512;
+
+  /// What a step did to the velocities at the place of its fit.
+  struct Taken {
+    VectorXd change;
+    double t = 0, dt = 0;
+    std::vector<Stokes::Stage> stages;
+  };
 
   /// The fields along which particles drifted at the last two midpoints; between and beyond them, a straight
   /// line.
@@ -179,6 +207,7 @@ class IncompressibleSolver final : public Simulation {
   VectorField middle_;          // where the fit is taken
   VectorXd field_;
   VectorXd last_gradient_;  // by the length of its step
+  Taken taken_, before_;
   Drift drift_;
   Vec2 impulse_ = Vec2::Zero();
   double now_ = scene_.start;

@@ -7,8 +7,9 @@ namespace mpm {
 namespace {
 
 template <int K>
-std::unique_ptr<Simulation> make(const Scene& scene, const IncompressibleScheme& scheme, int threads) {
-  return std::make_unique<incompressible::IncompressibleSolver<K>>(scene, scheme, threads);
+std::unique_ptr<Simulation> make(const Scene& scene, const IncompressibleScheme& scheme, int threads,
+                                 const WallShares& shares) {
+  return std::make_unique<incompressible::IncompressibleSolver<K>>(scene, scheme, threads, shares);
 }
 
 }  // namespace
@@ -25,17 +26,17 @@ void require_incompressible_fits(const IncompressibleScheme& scheme, const Scene
 }
 
 std::unique_ptr<Simulation> make_incompressible_solver(const Scene& scene, const IncompressibleScheme& scheme,
-                                                       int threads) {
+                                                       int threads, const WallShares& shares) {
   scene.validate();
   require_incompressible_fits(scheme, scene);
   if (threads == 0) threads = default_threads();
   switch (scheme.degree) {
     case 2:
-      return make<2>(scene, scheme, threads);
+      return make<2>(scene, scheme, threads, shares);
     case 3:
-      return make<3>(scene, scheme, threads);
+      return make<3>(scene, scheme, threads, shares);
     default:
-      return make<4>(scene, scheme, threads);
+      return make<4>(scene, scheme, threads, shares);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "solver/incompressible/incompressible_scheme.hpp"
+#include "solver/incompressible/wall_shares.hpp"
 #include "solver/simulation.hpp"
 
 namespace mpm {
@@ -11,7 +12,7 @@ namespace mpm {
 /// on it (0: default_threads()); the results are the same for any number of them. Throws SceneError for
 /// scenes that cannot be simulated.
 std::unique_ptr<Simulation> make_incompressible_solver(const Scene& scene, const IncompressibleScheme& scheme,
-                                                       int threads = 0);
+                                                       int threads = 0, const WallShares& shares = {});
 
 /// Throws SceneError for what the incompressible method does not know: free surfaces, walls that move into
 /// the fluid.

@@ -36,13 +36,14 @@ VectorXd traction_load(const VelocitySpace& space, const Scene& scene) {
 
 }  // namespace
 
-Stokes::Stokes(const Scene& scene, const VelocitySpace& space, const ExactMass& mass)
+Stokes::Stokes(const Scene& scene, const VelocitySpace& space, const ExactMass& mass,
+               const WallShares& shares)
     : scene_(scene),
       space_(space),
       mass_(mass),
       basis_(space.solenoidal_basis()),
       reduced_mass_((basis_.transpose() * mass.matrix() * basis_).pruned()),
-      viscosity_(make_viscosity(scene, space, basis_, reduced_mass_)),
+      viscosity_(make_viscosity(scene, space, basis_, reduced_mass_, shares)),
       last_(VectorXd::Zero(basis_.cols())),
       traction_(traction_load(space, scene)),
       uniform_{uniform_load(space, 0), uniform_load(space, 1)} {
@@ -97,7 +98,10 @@ Stokes::Step Stokes::advanced(const VectorXd& start, double t, double dt,
     const VectorXd f = forces(half);
     const auto middle = solved(0.5 * dt, half, momentum + 0.5 * dt * f);
     const VectorXd end = 2 * (basis_ * middle.w) - start;
-    return {end, impulse(dt * f, dt * viscosity_->force(middle.w, half), end - start), middle.converged};
+    return {end,
+            impulse(dt * f, dt * viscosity_->force(middle.w, half), end - start),
+            middle.converged,
+            {{middle.w, half, 1}}};
   }
   const VectorXd f1 = forces(t + gamma * dt), f2 = forces(t + dt);
   const auto first = solved(gamma * dt, t + gamma * dt, momentum + gamma * dt * f1);
@@ -107,8 +111,21 @@ Stokes::Step Stokes::advanced(const VectorXd& start, double t, double dt,
   const VectorXd end = basis_ * last.w;
   const VectorXd resistance = (1 - gamma) * dt * viscosity_->force(first.w, t + gamma * dt) +
                               gamma * dt * viscosity_->force(last.w, t + dt);
-  return {end, impulse((1 - gamma) * dt * f1 + gamma * dt * f2, resistance, end - start),
-          first.converged && last.converged};
+  return {end,
+          impulse((1 - gamma) * dt * f1 + gamma * dt * f2, resistance, end - start),
+          first.converged && last.converged,
+          {{first.w, t + gamma * dt, 1 - gamma}, {last.w, t + dt, gamma}}};
+}
+
+std::optional<VectorXd> Stokes::load_of_pressure(const VectorXd& change, double dt,
+                                                 const std::vector<Stage>& stages) const {
+  VectorXd load = mass_.times(change) / dt;
+  for (const Stage& stage : stages) {
+    const auto resistance = viscosity_->force_on_velocities(stage.w, stage.t);
+    if (!resistance) return std::nullopt;
+    load += stage.weight * (*resistance - forces(stage.t));
+  }
+  return load;
 }
 
 }  // namespace mpm::incompressible

@@ -14,19 +14,32 @@ namespace mpm::incompressible {
 /// the same at every step: factorised once.
 class Stokes {
  public:
-  Stokes(const Scene& scene, const VelocitySpace& space, const ExactMass& mass);
+  Stokes(const Scene& scene, const VelocitySpace& space, const ExactMass& mass,
+         const WallShares& shares = {});
 
   /// The solenoidal velocity nearest to the given one in energy: what pressure leaves of it.
   [[nodiscard]] VectorXd solenoidal_part(const VectorXd& velocity) const;
 
+  /// A velocity Z w between the ends of a step, where forces are taken.
+  struct Stage {
+    VectorXd w;
+    double t;       ///< [s]
+    double weight;  ///< its part of the step
+  };
   struct Step {
     VectorXd end;           ///< velocity after the step, solenoidal
     Vec2 impulse;           ///< of body and wall forces, per density [m3/s]
     bool converged = true;  ///< whether a viscosity that varies was solved for
+    std::vector<Stage> stages;
   };
   /// A step from a solenoidal velocity at t to t + dt [s] by the rule.
   [[nodiscard]] Step advanced(const VectorXd& start, double t, double dt,
                               IncompressibleScheme::Stepping rule);
+
+  /// What pressure had to give for velocities to change by `change` over a step of dt [s] with these stages:
+  /// integral of p/rho div N_i on every velocity [m3/s2]; none where the viscosity does not say.
+  [[nodiscard]] std::optional<VectorXd> load_of_pressure(const VectorXd& change, double dt,
+                                                         const std::vector<Stage>& stages) const;
 
  private:
   using Factor = Eigen::SimplicialLLT<SparseMatrix>;

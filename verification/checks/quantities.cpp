@@ -133,15 +133,15 @@ std::complex<double> relative_amplitude(const RunData& run) {
 
 // ---- density, pressure and places of the particles
 
-std::vector<const reports::StateRow*> states_at(const RunData& run, double t) {
+std::vector<const reports::StateRow*> states_at(const RunData& run, double t, const char* location) {
   std::vector<const reports::StateRow*> rows;
   for (const reports::StateRow& row : run.state)
-    if (row.t == t && row.location == "particles") rows.push_back(&row);
+    if (row.t == t && row.location == location) rows.push_back(&row);
   return rows;
 }
 
 double pressure_error(const RunData& run, double t) {
-  const auto rows = states_at(run, t);
+  const auto rows = states_at(run, t, run.plan->scene.incompressible && !run.foreign ? "cells" : "particles");
   double sum = 0;
   for (const reports::StateRow* row : rows) sum += std::pow(row->pressure - row->pressure_exact, 2);
   return rows.empty()
@@ -150,7 +150,7 @@ double pressure_error(const RunData& run, double t) {
 }
 
 double density_error(const RunData& run, double t) {
-  const auto rows = states_at(run, t);
+  const auto rows = states_at(run, t, "particles");
   double largest = rows.empty() ? nan : 0;
   for (const reports::StateRow* row : rows) {
     const double error = std::abs(row->density / row->density_exact - 1);

@@ -232,7 +232,6 @@ std::string TomlTable::text(const std::string& key, const std::string& absent) {
   KeyJournal::absent(data_->path + key, "text", absent);
   return has(key) ? text(key) : data_->absent(key, absent);
 }
-
 bool TomlTable::flag(const std::string& key, bool absent) {
   KeyJournal::absent(data_->path + key, "flag", absent ? "true" : "false");
   if (!has(key)) return data_->absent(key, absent);
@@ -245,7 +244,6 @@ double TomlTable::positive(const std::string& key) {
   if (!(value > 0)) fail(key, "must be positive");
   return value;
 }
-
 double TomlTable::positive(const std::string& key, double absent) {
   KeyJournal::absent(data_->path + key, "number", fmt::format("{:g}", absent));
   if (has(key)) return positive(key);
@@ -309,13 +307,18 @@ TomlTable TomlTable::restricted_to(const std::vector<std::string>& keys) const {
   return TomlTable(data);
 }
 
+bool TomlTable::erase(const std::string& path) {
+  const auto key = path.rfind('.') + 1;  // 0 where there is no dot
+  toml::table* table = key == 0 ? &data_->table : data_->table.at_path(path.substr(0, key - 1)).as_table();
+  return table && table->erase(path.substr(key)) > 0;
+}
+
 void TomlTable::set(const std::string& path, double value) {
   set_at(data_->table, path, value);
 }
 void TomlTable::set(const std::string& path, int value) {
   set_at(data_->table, path, static_cast<std::int64_t>(value));
 }
-
 void TomlTable::set(const std::string& path, const std::string& value) {
   set_at(data_->table, path, value);
 }
@@ -324,7 +327,6 @@ void TomlTable::set(const std::string& path, const std::vector<double>& values) 
   for (const double value : values) list.push_back(value);
   set_at(data_->table, path, std::move(list));
 }
-
 void TomlTable::note_defaults() {
   data_->defaults = std::make_shared<toml::table>();
 }
@@ -335,11 +337,9 @@ TomlTable TomlTable::with_defaults() const {
   overlay(data->table, data_->table);
   return TomlTable(data);
 }
-
 std::string TomlTable::print() const {
   return printed_toml(data_->table);
 }
-
 std::string TomlTable::print_as(const std::string& name) const {
   toml::table outer;
   set_at(outer, name, toml::table(data_->table));

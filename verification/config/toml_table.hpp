@@ -63,6 +63,9 @@ class TomlTable {
   /// Copy that holds only the named top-level keys, as if the file had no others.
   [[nodiscard]] TomlTable restricted_to(const std::vector<std::string>& keys) const;
 
+  /// Takes the key at a dotted path ("time.dt") away; whether it was there.
+  bool erase(const std::string& path);
+
   /// Marks a key as read without reading it.
   void accept(const std::string& key);
 

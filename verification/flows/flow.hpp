@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/incompressible/wall_shares.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace verification {
@@ -40,6 +41,8 @@ class ExactField {
   [[nodiscard]] virtual std::optional<double> shear_rate(const Vec2&, double) const { return std::nullopt; }
   /// Density [kg/m3] at a point; none where it is not of interest.
   [[nodiscard]] virtual std::optional<double> density(const Vec2&, double) const { return std::nullopt; }
+  /// Pressure of mean zero of an incompressible flow [Pa]; none where it is not of interest.
+  [[nodiscard]] virtual std::optional<double> pressure(const Vec2&, double) const { return std::nullopt; }
   /// Where the fluid that is at `start` [m] at t = 0 is at time t [s], not wrapped into the box; none where
   /// no closed form is known.
   [[nodiscard]] virtual std::optional<Vec2> path(const Vec2& start, double t) const {
@@ -88,6 +91,9 @@ class Flow {
 
   /// The solver's scene at a resolution, fluid included.
   [[nodiscard]] virtual mpm::Scene scene(const Discretisation& discretisation) const = 0;
+
+  /// Of walls whose velocity varies along them, for the incompressible method.
+  [[nodiscard]] virtual mpm::WallShares wall_shares() const { return {}; }
 
   /// Whether exact() gives one.
   [[nodiscard]] virtual bool has_exact() const { return true; }

@@ -83,7 +83,7 @@ void read_yielded(TomlTable& table, const Study& study, reports::FigureRecord& f
 Record record_of_figure(const std::string& kind) {
   if (kind == "history" || kind == "energy") return Record::History;
   if (kind == "shear-rate" || kind == "viscosity") return Record::Shear;
-  return kind == "pressure" ? Record::State : Record::Profile;
+  return kind == "pressure" || kind == "occupancy" ? Record::State : Record::Profile;
 }
 
 reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
@@ -92,7 +92,7 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
   figure.kind = table.text("kind");
   static const std::vector<std::string> kinds = {
       "profiles",  "history",  "energy",        "convergence", "work-precision", "shear-rate",
-      "viscosity", "pressure", "stability-map", "yielded",     "regularisation"};
+      "viscosity", "pressure", "stability-map", "yielded",     "regularisation", "occupancy"};
   if (std::ranges::count(kinds, figure.kind) == 0) table.fail("kind", "must be one of: " + joined(kinds));
   figure.title = table.text("title");
   if (figure.kind == "stability-map") {
@@ -134,7 +134,11 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
       table.fail("kind", "is for flows with an exact pressure");
     if (shear && !last->scene.flow->has_shear_profile()) table.fail("kind", "is for channels");
   }
-  if (shear || pressure || figure.kind == "profiles" || figure.kind == "history" || figure.kind == "energy") {
+  const bool occupancy = figure.kind == "occupancy";
+  if (occupancy && !last->scene.incompressible)
+    table.fail("kind", "is for the incompressible method, whose runs record it");
+  if (shear || pressure || occupancy || figure.kind == "profiles" || figure.kind == "history" ||
+      figure.kind == "energy") {
     if (figure.kind == "profiles" && runs.size() > 1 && !table.has("variants"))
       table.fail("variants", "say which to show: several in one figure are told apart by colour");
     figure.runs = joined(runs);

@@ -216,9 +216,12 @@ void read_variants(Study& study, TomlTable& root, const TomlTable& base, const s
     const TomlTable overrides = variant.restricted_to(scene_tables());
     for (const std::string& key : scene_tables()) variant.accept(key);
     const bool own = variant.has("solver");
+    TomlTable scene = base.overlaid_with(overrides, "variant " + name);
+    if (variant.has("without"))
+      for (const std::string& key : variant.texts("without"))
+        if (!scene.erase(key)) variant.fail("without", "'" + key + "' is no key of the scene");
     variant.refuse_unknown_keys();
-    plan_runs(study, base.overlaid_with(overrides, "variant " + name), name,
-              own ? solver_of(root, variant, "variant " + name, file) : all);
+    plan_runs(study, scene, name, own ? solver_of(root, variant, "variant " + name, file) : all);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "reference/compressible/tait_column.hpp"
 #include "solver/incompressible/make_incompressible_solver.hpp"
+#include "solver/incompressible/pressure_field.hpp"
 #include "solver/material/pressure.hpp"
 #include "solver/simulation.hpp"
 #include "solver/sph/make_sph_solver.hpp"
@@ -52,6 +53,7 @@ class Recorder {
     for (std::size_t p = 0; p < particles.size(); ++p)
       add(t, Location::Particles, particles.position[p], particles.velocity[p]);
     add_state(t);
+    if (scene_.incompressible) add_cells(t);
     data_.probe.push_back(probe_velocity(t));
     if (scene_.flow->has_shear_profile()) add_shear(t);
   }
@@ -76,6 +78,33 @@ class Recorder {
       data_.state.back().density = particles.density[p];
       data_.state.back().pressure = eos.pressure(particles.density[p]);
     }
+  }
+
+  /// Density of every cell by the particles in it, which disorder changes, and the pressure at its centre.
+  void add_cells(double t) {
+    const mpm::Scene& scene = scene_.scene;
+    const int nx = scene.cells[0], ny = scene.cells[1];
+    std::vector<double> mass(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), 0.0);
+    mpm::VectorField centres;
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i)
+        centres.emplace_back((i + 0.5) * scene.cell_size(0), (j + 0.5) * scene.cell_size(1));
+    const mpm::Particles& particles = simulation_.particles();
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const Vec2& x = particles.position[p];
+      if (!x.allFinite()) return;
+      const int i = std::clamp(static_cast<int>(x.x() / scene.cell_size(0)), 0, nx - 1);
+      const int j = std::clamp(static_cast<int>(x.y() / scene.cell_size(1)), 0, ny - 1);
+      mass[static_cast<std::size_t>(i) + static_cast<std::size_t>(j) * static_cast<std::size_t>(nx)] +=
+          particles.mass[p];
+    }
+    const auto* field = dynamic_cast<const mpm::PressureField*>(&simulation_);
+    const std::vector<double> pressure = field ? field->grid_pressure(centres) : std::vector<double>();
+    for (std::size_t c = 0; c < centres.size(); ++c)
+      data_.state.push_back({t, "cells", centres[c].x(), centres[c].y(),
+                             mass[c] / (scene.cell_size(0) * scene.cell_size(1)), scene.fluid.density,
+                             pressure.empty() ? nan : pressure[c],
+                             exact_ ? exact_->pressure(centres[c], t).value_or(nan) : nan});
   }
 
   /// Shear rate sqrt(2 D:D) and viscosity ratio at the centres of the cells under the probe.
@@ -185,7 +214,8 @@ namespace {
 
 std::unique_ptr<mpm::Simulation> simulation_of(const SceneConfig& scene, const mpm::Scene& started) {
   if (scene.sph) return mpm::make_sph_solver(started, *scene.sph);
-  if (scene.incompressible) return mpm::make_incompressible_solver(started, *scene.incompressible);
+  if (scene.incompressible)
+    return mpm::make_incompressible_solver(started, *scene.incompressible, 0, scene.flow->wall_shares());
   return mpm::make_simulation(started, scene.scheme);
 }
 

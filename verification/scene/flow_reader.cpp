@@ -8,15 +8,13 @@
 #include "verification/flows/channel/channel_flow.hpp"
 #include "verification/flows/channel/oscillating_channel_flow.hpp"
 #include "verification/flows/channel/stress_driven_flow.hpp"
-#include "verification/flows/vortices/lid_driven_cavity_flow.hpp"
-#include "verification/flows/vortices/manufactured_flow.hpp"
-#include "verification/flows/vortices/taylor_green_flow.hpp"
 #include "verification/flows/waves/dilatation_flow.hpp"
 #include "verification/flows/waves/periodic_flow.hpp"
 #include "verification/flows/waves/tait_column_flow.hpp"
 #include "verification/flows/waves/wave_flow.hpp"
 #include "verification/scene/scene_keys.hpp"
 #include "verification/scene/surface_flow_reader.hpp"
+#include "verification/scene/vortex_reader.hpp"
 
 namespace verification {
 namespace {
@@ -151,48 +149,6 @@ FlowPointer read_dilatation(TomlTable& table, const FluidConfig& fluid) {
   return std::make_shared<DilatationFlow>(p);
 }
 
-FlowPointer read_taylor_green(TomlTable& table, const FluidConfig& fluid) {
-  const auto nu = fluid.curve.newtonian();
-  if (!nu) table.fail("flow", "has an exact solution for a Newtonian fluid only");
-  if (!fluid.solver.pressure && !fluid.incompressible)
-    table.fail("flow",
-               "a vortex needs fluid.pressure = true or \"incompressible\": pressure balances its advection");
-  TaylorGreenFlowParameters p{table.positive("period"), table.positive("amplitude"), *nu, fluid.solver};
-  if (!fluid.incompressible && p.amplitude >= 0.5 * p.fluid.sound_speed())
-    table.fail("amplitude",
-               "must be below half the speed of sound sqrt(7 K/rho0): the vortex is incompressible");
-  return std::make_shared<TaylorGreenFlow>(p);
-}
-
-FlowPointer read_cavity(TomlTable& table, const FluidConfig& fluid) {
-  if (!fluid.solver.pressure && !fluid.incompressible)
-    table.fail("flow",
-               "a cavity needs fluid.pressure = true or \"incompressible\": pressure balances its advection");
-  // Refuses others than Newtonian fluids and yield stresses: their computed reference is not good enough yet.
-  if (!fluid.curve.yielding()) newtonian_viscosity(table, fluid);
-  LidDrivenCavityParameters p{table.positive("side"), table.positive("lid_velocity"), fluid.curve,
-                              fluid.solver};
-  if (!fluid.incompressible && p.lid_velocity >= 0.5 * p.fluid.sound_speed())
-    table.fail("lid_velocity",
-               "must be below half the speed of sound sqrt(7 K/rho0): the tables are of incompressible flow");
-  return std::make_shared<LidDrivenCavityFlow>(p);
-}
-
-FlowPointer read_manufactured(TomlTable& table, const FluidConfig& fluid) {
-  reference::ManufacturedParameters p;
-  p.height = table.positive("height");
-  p.length = table.positive("length", p.height);
-  p.plate_velocity = table.positive("plate_velocity");
-  p.amplitude = table.positive("amplitude");
-  p.angular_frequency = table.number("angular_frequency");
-  p.curve = fluid.curve;
-  try {
-    return std::make_shared<ManufacturedFlow>(p, fluid);
-  } catch (const std::invalid_argument& error) {
-    table.fail("amplitude", error.what());
-  }
-}
-
 using Reader = std::function<FlowPointer(TomlTable&, const FluidConfig&)>;
 
 const std::vector<std::pair<std::string, Reader>>& readers() {
@@ -212,6 +168,8 @@ const std::vector<std::pair<std::string, Reader>>& readers() {
       {"oscillating-plate", [](TomlTable& t, const FluidConfig& f) { return read_oscillating(t, f, true); }},
       {"womersley", [](TomlTable& t, const FluidConfig& f) { return read_oscillating(t, f, false); }},
       {"taylor-green", read_taylor_green},
+      {"double-shear-layer", read_double_shear_layer},
+      {"walled-vortex", read_walled_vortex},
       {"lid-driven-cavity", read_cavity},
       {"manufactured", read_manufactured},
       {"gravity-current", read_gravity_current},

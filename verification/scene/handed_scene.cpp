@@ -33,7 +33,16 @@ std::string start_in_words(const std::string& flow) {
       {"taylor-green",
        "u = amplitude sin(k x) cos(k y), v = -amplitude cos(k x) sin(k y), k = 2 pi/period; pressure density "
        "amplitude^2/4 (cos 2kx + cos 2ky)"},
-      {"lid-driven-cavity", "at rest; the lid at the top moves with lid_velocity along x from t = 0"},
+      {"double-shear-layer",
+       "u = amplitude tanh((y - L/4)/thickness) below L/2, amplitude tanh((3 L/4 - y)/thickness) above, L = "
+       "period; v = disturbance amplitude sin(2 pi x/L)"},
+      {"walled-vortex",
+       "u = amplitude sin(s x)^2 sin(2 s y), v = -amplitude sin(2 s x) sin(s y)^2, s = pi/side, between "
+       "walls at "
+       "rest, under the acceleration that makes exp(-decay_rate t) times it a solution"},
+      {"lid-driven-cavity",
+       "at rest; the lid at the top moves with lid_velocity along x from t = 0; a regularised one with "
+       "16 lid_velocity s^2 (1 - s)^2, s = x/side"},
       {"manufactured",
        "u = V0 y/H + a sin(2 pi y/H) sin(k x), v = -a k H/pi sin(pi y/H)^2 cos(k x), k = 2 pi/L, under the "
        "acceleration that makes th = k x - w t in place of k x a solution at all times"},

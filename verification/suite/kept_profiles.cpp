@@ -11,7 +11,7 @@ KeptProfiles::KeptProfiles(const std::vector<Study>& studies, std::filesystem::p
   static const std::map<std::string, File> file_of = {
       {"profiles", File::Profile}, {"history", File::History}, {"energy", File::History},
       {"shear-rate", File::Shear}, {"viscosity", File::Shear}, {"pressure", File::State},
-      {"yielded", File::Profile}};
+      {"yielded", File::Profile},  {"occupancy", File::State}};
   for (const Study& study : studies)
     for (const reports::FigureRecord& figure : study.figures) {
       // Drawn from the tables alone.

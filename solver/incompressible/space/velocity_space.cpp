@@ -121,6 +121,18 @@ SparseMatrix VelocitySpace::solenoidal_basis() const {
   return basis;
 }
 
+SparseMatrix VelocitySpace::divergence() const {
+  const SplineAxis &x = axis(0), &y = axis(1);
+  const SparseMatrix of_u = kronecker(identity(y.tangential().count), derivative_between_unknowns(x));
+  const SparseMatrix of_v = kronecker(derivative_between_unknowns(y), identity(x.tangential().count));
+  Triplets entries;
+  append(entries, of_u, 0, 0, 1);
+  append(entries, of_v, 0, size(0), 1);
+  SparseMatrix both(of_u.rows(), size());
+  both.setFromTriplets(entries.begin(), entries.end());
+  return both;
+}
+
 VectorXd VelocitySpace::load(
     const std::function<void(const VectorField& points, VectorField& values)>& field) const {
   const SplineAxis &x = axis(0), &y = axis(1);

@@ -50,6 +50,9 @@ class VelocitySpace {
   /// periodic.
   [[nodiscard]] SparseMatrix solenoidal_basis() const;
 
+  /// From the unknowns of a velocity to those of its divergence in S_{k-1} x S_{k-1} [1/m].
+  [[nodiscard]] SparseMatrix divergence() const;
+
   /// Integral of every function of a component times a field: entry of an unknown, integral of N_i f dA [m2
   /// times the field's unit], by Gauss points exact to degree 2k + 1.
   [[nodiscard]] VectorXd load(

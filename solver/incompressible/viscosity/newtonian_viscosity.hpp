@@ -13,15 +13,19 @@ class NewtonianViscosity final : public Viscosity {
  public:
   /// `nu`: kinematic viscosity [m2/s].
   NewtonianViscosity(const Scene& scene, const VelocitySpace& space, const SparseMatrix& basis,
-                     const SparseMatrix& mass, double nu)
+                     const SparseMatrix& mass, double nu, const WallShares& shares = {})
       : nu_(nu),
         basis_(basis),
         mass_(mass),
-        form_(space, scene),
+        form_(space, scene, shares),
         matrix_((basis.transpose() * form_.matrix() * basis).pruned()) {}
 
   [[nodiscard]] VectorXd force(const VectorXd& w, double t) const override {
     return nu_ * (matrix_ * w - basis_.transpose() * form_.wall_load(t));
+  }
+
+  [[nodiscard]] std::optional<VectorXd> force_on_velocities(const VectorXd& w, double t) const override {
+    return nu_ * (form_.matrix() * (basis_ * w) - form_.wall_load(t));
   }
 
   [[nodiscard]] Solution solved(double a, double t, const VectorXd& load, const VectorXd&) override {

@@ -22,7 +22,8 @@ namespace mpm::incompressible {
 template <int K>
 class ShearViscosity : public Viscosity {
  public:
-  ShearViscosity(const Scene& scene, const VelocitySpace& space, const SparseMatrix& mass, FlowLaw law)
+  ShearViscosity(const Scene& scene, const VelocitySpace& space, const SparseMatrix& mass, FlowLaw law,
+                 const WallShares& shares = {})
       : law_(std::move(law)), psi_(space), mass_(mass) {
     const std::array<std::vector<Line>, 2> lines = {gauss_lines(space.axis(0)), gauss_lines(space.axis(1))};
     for (const Line& y : lines[1])
@@ -31,13 +32,15 @@ class ShearViscosity : public Viscosity {
       const SplineAxis& axis = space.axis(across);
       if (axis.periodic()) continue;
       for (const int end : {0, 1}) {
-        const Side& side = scene.sides[static_cast<std::size_t>(2 * across + end)];
+        const auto edge = static_cast<std::size_t>(2 * across + end);
+        const Side& side = scene.sides[edge];
         if (std::isinf(side.slip_length)) continue;
         const Line wall = line(axis, end == 0 ? 0 : axis.cells() - 1, end, 1);
         const double holds = side.slip_length > 0 ? 1 / side.slip_length : penalty * K / axis.cell_size();
         for (const Line& along : lines[static_cast<std::size_t>(1 - across)])
           walls_.push_back({across == 0 ? wall : along, across == 0 ? along : wall, along.weight, &side,
-                            across, end == 0 ? -1.0 : 1.0, holds});
+                            across, end == 0 ? -1.0 : 1.0, holds,
+                            shares[edge] ? shares[edge](along.place) : 1.0});
       }
     }
   }
@@ -55,7 +58,8 @@ class ShearViscosity : public Viscosity {
       const Wall& s = walls_[i];
       const Tangent tangent = tangent_at(state, i);
       const Block along = along_of(s);
-      const double missed = at(state.psi, s).cwiseProduct(along).sum() - s.side->velocity(t)[1 - s.across];
+      const double missed =
+          at(state.psi, s).cwiseProduct(along).sum() - s.moves * s.side->velocity(t)[1 - s.across];
       if (s.side->slip_length > 0) {
         at(sum, s) += s.weight * tangent.nu * s.holds * missed * along;
         continue;
@@ -173,7 +177,7 @@ class ShearViscosity : public Viscosity {
   struct Line {
     int cell;
     Weights value, slope, curvature;
-    double weight;  // [m]
+    double weight, place;  // [m]
   };
   struct Site {
     Line x, y;
@@ -184,8 +188,10 @@ class ShearViscosity : public Viscosity {
     int across;    // axis
     double sign;   // of the outward normal
     double holds;  // [1/m]
-    Wall(const Line& lx, const Line& ly, double weight, const Side* of, int axis, double normal, double held)
-        : Site{lx, ly, weight}, side(of), across(axis), sign(normal), holds(held) {}
+    double moves;  // share of the side's velocity
+    Wall(const Line& lx, const Line& ly, double weight, const Side* of, int axis, double normal, double held,
+         double share)
+        : Site{lx, ly, weight}, side(of), across(axis), sign(normal), holds(held), moves(share) {}
   };
   struct Tangent {
     double rate;   // d u_t/dn [1/s]
@@ -195,7 +201,8 @@ class ShearViscosity : public Viscosity {
   };
 
   static Line line(const SplineAxis& axis, int cell, double xi, double weight) {
-    return {cell, axis.values(0, cell, xi), axis.slopes(0, cell, xi), axis.curvatures(cell, xi), weight};
+    return {cell,   axis.values(0, cell, xi),      axis.slopes(0, cell, xi), axis.curvatures(cell, xi),
+            weight, (cell + xi) * axis.cell_size()};
   }
   static std::vector<Line> gauss_lines(const SplineAxis& axis) {
     const CellPoints gauss = cell_points(Seeding::Rule::Gauss, K + 1);

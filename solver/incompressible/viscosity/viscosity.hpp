@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "solver/incompressible/viscosity/viscous_form.hpp"
 
@@ -16,6 +17,13 @@ class Viscosity {
   /// velocity.
   [[nodiscard]] virtual VectorXd force(const VectorXd& w, double t) const = 0;
 
+  /// The same on the velocities themselves, gradients included, which a pressure balances [m3/s2]; none where
+  /// it is not at hand.
+  [[nodiscard]] virtual std::optional<VectorXd> force_on_velocities(const VectorXd& w, double t) const {
+    static_cast<void>(w), static_cast<void>(t);
+    return std::nullopt;
+  }
+
   struct Solution {
     VectorXd w;
     bool converged = true;
@@ -26,6 +34,7 @@ class Viscosity {
 
 /// For the scene's fluid. `basis` is Z, `mass` Z^T M Z; both, the scene and the space must outlive it.
 std::unique_ptr<Viscosity> make_viscosity(const Scene& scene, const VelocitySpace& space,
-                                          const SparseMatrix& basis, const SparseMatrix& mass);
+                                          const SparseMatrix& basis, const SparseMatrix& mass,
+                                          const WallShares& shares = {});
 
 }  // namespace mpm::incompressible

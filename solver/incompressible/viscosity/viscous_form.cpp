@@ -2,10 +2,25 @@
 
 #include <cmath>
 
+#include "solver/scene/seeding.hpp"
+
 namespace mpm::incompressible {
 namespace {
 
 constexpr double penalty = 6;  // times k/h
+
+/// Integral of every function of degree k times the share of its velocity with which a wall moves [m].
+VectorXd moved(const SplineAxis& axis, const std::function<double(double)>& share) {
+  if (!share) return axis.integrals(0);
+  const CellPoints gauss = cell_points(Seeding::Rule::Gauss, axis.degree() + 2);
+  VectorXd sum = VectorXd::Zero(axis.functions(0));
+  for (int cell = 0; cell < axis.cells(); ++cell)
+    for (std::size_t g = 0; g < gauss.position.size(); ++g)
+      sum.segment(cell, axis.degree() + 1) += gauss.weight[g] * axis.cell_size() *
+                                              share((cell + gauss.position[g]) * axis.cell_size()) *
+                                              axis.values(0, cell, gauss.position[g]);
+  return sum;
+}
 
 /// What an end of an axis adds to the stiffness of the velocity along the wall there, and the load of its
 /// unit motion.
@@ -37,7 +52,7 @@ VectorXd folded(const VectorXd& functions, const Unknowns& unknowns) {
 
 }  // namespace
 
-ViscousForm::ViscousForm(const VelocitySpace& space, const Scene& scene)
+ViscousForm::ViscousForm(const VelocitySpace& space, const Scene& scene, const WallShares& shares)
     : space_(space), matrix_(space.size(), space.size()) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const int component : {0, 1}) {
@@ -46,10 +61,11 @@ ViscousForm::ViscousForm(const VelocitySpace& space, const Scene& scene)
     SparseMatrix held = tangential.stiffness(1);
     for (const int end : {0, 1}) {
       if (tangential.periodic()) break;
-      const Side& side = scene.sides[static_cast<std::size_t>(2 * across + end)];
+      const auto edge = static_cast<std::size_t>(2 * across + end);
+      const Side& side = scene.sides[edge];
       const AtWall wall = at_wall(tangential, end, side.slip_length);
       held = held + wall.matrix;
-      const VectorXd along = folded(normal.integrals(0), space.unknowns(component, component));
+      const VectorXd along = folded(moved(normal, shares[edge]), space.unknowns(component, component));
       const VectorXd into = folded(wall.load, space.unknowns(component, across));
       MatrixXd load = along * into.transpose();
       if (component == 1) load.transposeInPlace();

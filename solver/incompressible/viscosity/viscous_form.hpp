@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/incompressible/space/exact_mass.hpp"
+#include "solver/incompressible/wall_shares.hpp"
 
 namespace mpm::incompressible {
 
@@ -10,7 +11,7 @@ namespace mpm::incompressible {
 /// wall of slip length b adds u w/b.
 class ViscousForm {
  public:
-  ViscousForm(const VelocitySpace& space, const Scene& scene);
+  ViscousForm(const VelocitySpace& space, const Scene& scene, const WallShares& shares = {});
 
   /// K for a viscosity of 1 m2/s [1].
   [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }

@@ -19,8 +19,8 @@ class YieldViscosity final : public ShearViscosity<K> {
 
  public:
   YieldViscosity(const Scene& scene, const VelocitySpace& space, const SparseMatrix& mass,
-                 const HerschelBulkley& fluid)
-      : Base(scene, space, mass, flow_law(fluid, scene.fluid.density)), fluid_(fluid) {
+                 const HerschelBulkley& fluid, const WallShares& shares = {})
+      : Base(scene, space, mass, flow_law(fluid, scene.fluid.density), shares), fluid_(fluid) {
     fluid_.consistency /= scene.fluid.density;
     fluid_.yield_stress /= scene.fluid.density;
   }
@@ -53,7 +53,7 @@ class YieldViscosity final : public ShearViscosity<K> {
  private:
   static constexpr int most_iterations = 200;
   static constexpr double rate_tolerance = 1e-11;  // of the largest rate
-  static constexpr double round_off = 1e-8;       // as YieldNewton
+  static constexpr double round_off = 1e-8;        // as YieldNewton
 
   [[nodiscard]] static Eigen::Vector2d rate(const State& s, Eigen::Index i) {
     return {2 * s.xy[i], s.shear[i]};

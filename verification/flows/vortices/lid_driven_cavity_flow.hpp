@@ -8,10 +8,13 @@ namespace verification {
 
 /// The square cavity [0, L]^2 whose lid, y = L, moves along x with U from t = 0. The steady flow is known at
 /// the points of published tables alone, one component at each: there grid velocities are compared. Of other
-/// than Newtonian fluids it is computed there (reference/vortices/cavity_finite_volumes.hpp).
+/// than Newtonian fluids it is computed there (reference/vortices/cavity_finite_volumes.hpp). A smooth lid
+/// moves with 16 U (x/L)^2 (1 - x/L)^2: the steady flow of a Newtonian fluid is then known everywhere
+/// (reference/vortices/smooth_cavity.hpp).
 struct LidDrivenCavityParameters {
   double side = 0;          ///< L [m]
   double lid_velocity = 0;  ///< U [m/s]
+  bool smooth = false;
   reference::FlowCurve curve{reference::NewtonianCurve{1}};
   mpm::Fluid fluid;
 };
@@ -21,6 +24,7 @@ class LidDrivenCavityFlow final : public Flow {
   explicit LidDrivenCavityFlow(const LidDrivenCavityParameters& parameters) : parameters_(parameters) {}
 
   [[nodiscard]] mpm::Scene scene(const Discretisation& discretisation) const override;
+  [[nodiscard]] mpm::WallShares wall_shares() const override;
   [[nodiscard]] bool has_exact() const override;
   [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const override;
   [[nodiscard]] std::optional<CostlyReference> costly_reference(
@@ -34,6 +38,8 @@ class LidDrivenCavityFlow final : public Flow {
  private:
   /// The table for the Reynolds number U L/nu; empty where there is none, or no such number.
   [[nodiscard]] std::vector<reference::CavityPoint> published() const;
+
+  [[nodiscard]] std::optional<double> reynolds() const;
 
   LidDrivenCavityParameters parameters_;
 };

@@ -13,6 +13,9 @@ class TaylorGreenField final : public ExactField {
     const auto v = solution_->velocity(x.x(), x.y(), t);
     return {v[0], v[1]};
   }
+  [[nodiscard]] std::optional<double> pressure(const Vec2& x, double t) const override {
+    return solution_->pressure(x.x(), x.y(), t);
+  }
   [[nodiscard]] std::optional<double> kinetic_energy(double t) const override {
     return solution_->kinetic_energy(t);
   }

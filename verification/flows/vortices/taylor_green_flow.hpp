@@ -23,6 +23,10 @@ class TaylorGreenFlow final : public Flow {
   [[nodiscard]] std::shared_ptr<const ExactField> exact(const std::vector<double>& times) const override;
   [[nodiscard]] double velocity_scale() const override { return solution_->rms_speed(0); }
   [[nodiscard]] double velocity_scale_at(double t) const override { return solution_->rms_speed(t); }
+  /// rho0 U^2/2: half of what the pressure spans at t = 0.
+  [[nodiscard]] double pressure_scale() const override {
+    return 0.5 * parameters_.fluid.density * parameters_.amplitude * parameters_.amplitude;
+  }
   [[nodiscard]] Probe probe() const override;
   [[nodiscard]] int across() const override { return 1; }
   [[nodiscard]] double length() const override { return parameters_.period; }
