@@ -42,7 +42,7 @@ class YieldViscosity final : public ShearViscosity<K> {
       flow = this->rates_of(w);
       const double speed = norm(w), missing = missed(flow, place);
       if (change <= Base::tolerance * speed && missing <= rate_tolerance) return {w, true};
-      if (change <= round_off * speed && change > 0.5 * last_change && missing <= round_off) return {w, true};
+      if (change <= round_off * speed && change >= last_change && missing <= round_off) return {w, true};
       share = next_share(share, change, last_change, iteration);
       last_change = change;
       move(place, flow, share);
@@ -53,7 +53,7 @@ class YieldViscosity final : public ShearViscosity<K> {
  private:
   static constexpr int most_iterations = 200;
   static constexpr double rate_tolerance = 1e-11;  // of the largest rate
-  static constexpr double round_off = 1e-8;       // as YieldNewton
+  static constexpr double round_off = 1e-8;        // as YieldNewton
 
   [[nodiscard]] static Eigen::Vector2d rate(const State& s, Eigen::Index i) {
     return {2 * s.xy[i], s.shear[i]};
