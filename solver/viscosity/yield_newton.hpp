@@ -15,7 +15,7 @@ namespace mpm {
 /// on its flow curve is an unknown of its own, on which the strain rate depends through the linear system
 /// alone: particles move along their curves by S + c 2 D (DualRate), in which stress and rate are both
 /// nearly straight. Eliminated particle by particle, what is left is a system with the tangent at those
-/// places. Number of iterations: 4 to 9, whatever m. The idea: variables by which a steep graph is
+/// places. Four to nine iterations in the mean, whatever m. The idea: variables by which a steep graph is
 /// parametrised, Brenner & Cancès 2017, SIAM J. Numer. Anal. 55, 1760; stresses as unknowns beside rates,
 /// Chan, Golub & Mulet 1999, SIAM J. Sci. Comput. 20, 1964.
 class YieldNewton final : public ImplicitViscosity {
@@ -44,7 +44,7 @@ class YieldNewton final : public ImplicitViscosity {
       const double speed = std::max(ViscousSystem::largest(velocity), system_.scale());
       const double missing = missed(velocity) * system_.cell();
       converged = (change <= tolerance * speed && missing <= rate_tolerance * speed) ||
-                  (change <= round_off * speed && missing <= round_off * speed && change > 0.5 * last_change);
+                  (change <= round_off * speed && missing <= round_off * speed && change >= last_change);
       share = next_share(share, change, last_change, iterations_);
       last_change = change;
       // The linear system is solved: what its residual says of the walls is their force.

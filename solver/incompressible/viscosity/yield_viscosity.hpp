@@ -42,7 +42,7 @@ class YieldViscosity final : public ShearViscosity<K> {
       flow = this->rates_of(w);
       const double speed = norm(w), missing = missed(flow, place);
       if (change <= Base::tolerance * speed && missing <= rate_tolerance) return {w, true};
-      if (change <= round_off * speed && change > 0.5 * last_change && missing <= round_off) return {w, true};
+      if (change <= round_off * speed && change >= last_change && missing <= round_off) return {w, true};
       share = next_share(share, change, last_change, iteration);
       last_change = change;
       move(place, flow, share);
