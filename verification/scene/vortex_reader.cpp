@@ -53,7 +53,7 @@ FlowPointer read_walled_vortex(TomlTable& table, const FluidConfig& fluid) {
   p.kinematic_viscosity = newtonian_viscosity(table, fluid);
   p.side = table.positive("side");
   p.amplitude = table.positive("amplitude");
-  p.decay_rate = table.positive("decay_rate", 0);
+  if (table.has("decay_rate")) p.decay_rate = table.positive("decay_rate");
   return std::make_shared<WalledVortexFlow>(p, fluid.solver);
 }
 

@@ -66,6 +66,37 @@ TEST_CASE("wrong keys of the flows are refused by name") {
       contains("square"));
 }
 
+TEST_CASE("keys of cavities and vortices are refused by name") {
+  const std::string grid = "cells = 4\n[time]\ndt = 1e-3\nend = 1e-2",
+                    still = "pressure = \"incompressible\"";
+  const std::string cavity = "flow = \"lid-driven-cavity\"\nside = 1e-3\nlid_velocity = 1e-3\n";
+  CHECK_THROWS_WITH(read(scene(cavity + "lid = \"smooth\"", still, grid)), contains("regularised"));
+  CHECK_THROWS_WITH(read(scene(cavity + "lid = \"regularised\"", pressure, grid)),
+                    contains("incompressible"));
+  CHECK(read(scene(cavity + "lid = \"regularised\"", still, grid)).flow->has_exact());
+  const std::string vortex = "flow = \"walled-vortex\"\nside = 1e-3\namplitude = 1e-3\n";
+  CHECK_THROWS_WITH(read(scene(vortex, none, grid)), contains("balances its advection"));
+  CHECK_THROWS_WITH(read(scene(vortex + "decay_rate = -1", still, grid)), contains("decay_rate"));
+  CHECK_FALSE(read(scene("flow = \"double-shear-layer\"\nperiod = 1e-3\namplitude = 1e-3\nthickness = 1e-4",
+                         still, grid))
+                  .flow->has_exact());
+}
+
+TEST_CASE("cells of an incompressible run say how many particles they hold, and the pressure") {
+  const PlannedRun plan =
+      planned(scene("flow = \"taylor-green\"\nperiod = 1e-3\namplitude = 1e-1",
+                    "pressure = \"incompressible\"", "cells = 8\n[time]\ndt = 2e-4\nend = 2e-3"));
+  const RunData done = run(plan);
+  REQUIRE(done.state.size() == 64);
+  double mass = 0;
+  for (const reports::StateRow& row : done.state) {
+    CHECK(row.location == "cells");
+    mass += row.density * 1e-6 / 64;
+  }
+  CHECK(mass == Approx(1e-6 * 1000));
+  CHECK(evaluate({"pressure-error", 2e-3}, done) < 0.05);  // of rho U^2/2, on 8 cells
+}
+
 TEST_CASE("the path error is the distance to the exact place, around the periodic box") {
   const PlannedRun plan = planned(translation);
   const RunData data = run(plan);

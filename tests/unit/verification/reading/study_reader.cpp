@@ -51,6 +51,15 @@ TEST_CASE("a study expands to its variants times its ladder, the step shrinking 
   CHECK(study.checks.front().times == std::vector<double>{0.01, 0.02});
 }
 
+TEST_CASE("a variant takes keys of the scene away, and only those that are there") {
+  const Study study = read(with("name = \"b\"", "name = \"b\"\nwithout = [\"scheme.stepping\"]"));
+  CHECK(study.runs[3].scene.scheme.stepping == mpm::Scheme::Stepping::Usf);
+  CHECK_THROWS_WITH(read(with("name = \"b\"", "name = \"b\"\nwithout = [\"time.nothing\"]")),
+                    contains("'time.nothing' is no key of the scene"));
+  CHECK_THROWS_WITH(read(with("name = \"b\"", "name = \"b\"\nwithout = [\"nothing.dt\"]")),
+                    contains("'nothing.dt' is no key of the scene"));
+}
+
 TEST_CASE("a scene's text reproduces it") {
   const Study study = read(good);
   const SceneConfig again = read_scene_config(TomlTable::from_text(study.runs[3].scene.toml, "printed"));
