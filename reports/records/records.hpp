@@ -250,18 +250,21 @@ struct FigureRecord {
   std::string figure;  ///< file stem, unique
   std::string study;
   /// "profiles", "history", "energy", "convergence", "work-precision", "shear-rate", "viscosity", "pressure",
-  /// "occupancy", "stability-map", "validation", "validation-parts", "computed-measured"
+  /// "occupancy", "stability-map", "regularisation", "yielded", "validation", "validation-parts",
+  /// "computed-measured"
   std::string kind;
   std::string title;  ///< the claim that the figure shows
   /// Runs to draw (profiles, history, work-precision); "" = all of the study. stability-map: schemes, as
   /// basis_transfer_stepping.
   std::string runs;
-  std::string labels;     ///< a legend entry for each run; "" = run names
-  std::string across;     ///< profiles: "x" or "y"; work-precision: "wall" or "particle-steps";
-                          ///< stability-map: waves
-  std::string component;  ///< velocity component of profiles: "u" or "v"
-  std::string location;   ///< "grid", "particles", or "grid;particles"; stability-map: motions
-  std::string norm;       ///< convergence, work-precision: "l1", "l2", "linf"
+  std::string labels;  ///< a legend entry for each run; "" = run names. regularisation: its m [s]
+  std::string across;  ///< profiles: "x" or "y"; work-precision: "wall" or "particle-steps";
+                       ///< stability-map: waves; regularisation: runs on the path
+  /// Velocity component of profiles: "u" or "v"; yielded: of each run, the shear rate at which it yields
+  /// [1/s]
+  std::string component;
+  std::string location;  ///< "grid", "particles", or "grid;particles"; stability-map: motions
+  std::string norm;      ///< convergence, work-precision: "l1", "l2", "linf"
   double t = std::numeric_limits<double>::quiet_NaN();  ///< shear-rate, viscosity, pressure: the time [s]
 };
 
