@@ -110,6 +110,29 @@ class Derivation {
     }
   }
 
+  /// The same of the schemes that are accurate in two dimensions.
+  void peaks_of_vortices() {
+    if (!rates_.has("peak/arithmetic") || !rates_.has("peak/bandwidth/72")) return;
+    const Rate arithmetic = rates_.rate("peak/arithmetic", "operations");
+    const Rate bandwidth = rates_.rate("peak/bandwidth/72", "bytes");
+    const auto part = [&](const std::string& name, const std::string& of, double work, const Rate& peak) {
+      if (!rates_.has(name)) return;
+      const Rate rate = rates_.rate(name, counter);
+      records_.push_back({name, "part of peak " + of, rate.value * work / peak.value, "1",
+                          std::hypot(rate.spread, peak.spread)});
+    };
+    for (const auto& [scheme, operations] :
+         {std::pair{std::string("vortex/quadratic_apic"), apic_operations_per_particle_step()},
+          std::pair{std::string("vortex/cubic_full_mass_leapfrog"),
+                    full_mass_operations_per_particle_step()}}) {
+      records_.push_back({scheme, "operations a particle-step", operations, "1", 0});
+      part(scheme + "/64/1", "arithmetic", operations, arithmetic);
+    }
+    records_.push_back(
+        {"vortex/quadratic_apic", "bytes a particle-step", bytes_per_affine_particle_step, "B", 0});
+    part("vortex/quadratic_apic/256/1", "bandwidth", bytes_per_affine_particle_step, bandwidth);
+  }
+
   [[nodiscard]] std::vector<reports::BenchRecord> records() const { return records_; }
 
  private:
@@ -133,6 +156,7 @@ std::vector<reports::BenchRecord> derived(const Collector& rates) {
   derivation.growth();
   derivation.threads();
   derivation.peaks();
+  derivation.peaks_of_vortices();
   return derivation.records();
 }
 

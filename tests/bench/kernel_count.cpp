@@ -41,16 +41,19 @@ double kernel_operations_per_particle_step() {
     return mpm::LineOfCells{cells[a], axis[a].periodic, axis[a].length, axis[a].inverse_h,
                             functions[a].data()};
   };
-  mpm::counted::LaneKernel<mpm::counted::LaneBasis<1, false>> kernel({.degree = 1,
-                                                                      .strip = false,
-                                                                      .axis = {line(0), line(1)},
-                                                                      .rheology = mpm::Newtonian{viscosity},
-                                                                      .is_affine = false,
-                                                                      .has_pressure = true,
-                                                                      .pressure = {bulk_modulus, 1 / density},
-                                                                      .points = points.data(),
-                                                                      .count = points.size(),
-                                                                      .shares = 1});
+  mpm::counted::LaneKernel<mpm::counted::LaneBasis<1, false>> kernel(
+      {.degree = 1,
+       .strip = false,
+       .axis = {line(0), line(1)},
+       .rheology = mpm::Newtonian{viscosity},
+       .is_affine = false,
+       .has_pressure = true,
+       .has_cell_pressure = false,
+       .pressure = {{bulk_modulus, 1 / density}, 0},
+       .most_inverse_mass = std::numeric_limits<double>::infinity(),
+       .points = points.data(),
+       .count = points.size(),
+       .shares = 1});
   const mpm::Part all = mpm::Sweep::whole({cells[1], cells[0] + 1, 1, true});
   const double body_acceleration[2] = {0, 8e-3};
   mpm::counted::operations = 0;

@@ -10,6 +10,10 @@ namespace bench {
 /// source has them: sums, products and quotients one each, comparisons none.
 double kernel_operations_per_particle_step();
 
+/// The same of quadratic APIC, and of cubic full mass in leapfrog steps with its solves, in vortices.
+double apic_operations_per_particle_step();
+double full_mass_operations_per_particle_step();
+
 /// The same of the plain loop, counted by the loop with a number that counts.
 inline double plain_operations_per_particle_step() {
   plain::Loop<plain::Newtonian, plain::Counted> loop({0.5e-3, 1e-3, 10, 20, 2, 1000, 143, 8e-3, true},
@@ -24,5 +28,7 @@ inline double plain_operations_per_particle_step() {
 ///   a particle's place, v, m, V are read and, as whole cache lines, written   6 + 6
 ///   a node's 1/m, v, a are fetched and written, a quarter of                  5 + 5
 constexpr double bytes_per_particle_step = 8 * (6 + 6 + (5 + 5) / 4.0);
+/// The same with an affine field of four numbers a particle (APIC).
+constexpr double bytes_per_affine_particle_step = bytes_per_particle_step + 8 * (4 + 4);
 
 }  // namespace bench
