@@ -103,6 +103,7 @@ void require_steps(const TomlTable& root, const SceneConfig& scene) {
 }
 
 std::string step_warning(const SceneConfig& scene) {
+  if (scene.incompressible) return "";  // implicit, and without sound
   double dt = 0;
   for (const mpm::Segment& segment : scene.segments) dt = std::max(dt, segment.dt);
   const double h = scene.scene.smallest_cell_size(), margin = is_strip(scene) ? margin_of_a_strip : 1;
