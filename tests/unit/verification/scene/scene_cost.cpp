@@ -44,6 +44,9 @@ TEST_CASE("steps above a scheme's limit are told, and those below are not") {
   CHECK(step_warning(scene_of(couette_scene("cells = 8", "dt = 0.03\nend = 3") +
                               "[scheme]\nstepping = \"implicit-euler\"\n"))
             .empty());
+  CHECK(step_warning(scene_of(replaced(couette_scene("cells = 8\ncells_along = 8", "dt = 0.012\nend = 1.2"),
+                                       "pressure = false", "pressure = \"incompressible\"")))
+            .empty());
 }
 
 TEST_CASE("implicit viscosity without a dt is stepped as accuracy asks, whatever the largest viscosity") {
