@@ -110,7 +110,9 @@ Ladder ladder_for(const Study& study, const TomlTable& scene) {
   Ladder ladder = study.ladder;
   if (!study.matrix) return ladder;
   TomlTable copy = scene.overlaid_with(TomlTable::from_text("", ""), "");
-  const mpm::FormalOrder formal = formal_order(read_scene_config(copy));
+  const SceneConfig config = read_scene_config(copy);
+  if (config.incompressible) return ladder;  // a variant beside the matrix
+  const mpm::FormalOrder formal = formal_order(config);
   if (ladder.formal_exponent) ladder.dt_exponent = formal_dt_exponent(formal);
   ladder.theoretical = expected_order(formal, ladder.axis, ladder.dt_exponent, Location::Grid);
   ladder.theoretical_particles = expected_order(formal, ladder.axis, ladder.dt_exponent, Location::Particles);
