@@ -108,7 +108,7 @@ std::vector<const CheckRecord*> by_demand(const std::vector<const CheckRecord*>&
 }  // namespace
 
 std::string html_checks(const std::vector<const CheckRecord*>& checks, bool with_study) {
-  constexpr std::size_t most_passes = 40;  // a study; failures are all shown
+  constexpr std::size_t most_passes = 36;  // a study; failures are all shown
   std::string rows;
   std::size_t passes = 0;
   const CheckRecord* before = nullptr;
@@ -210,7 +210,7 @@ std::string rates(const Results& results, const std::string& study) {
 
 /// Orders of the L2 norm, or of what norm there is, as far as anything was fitted.
 std::string orders(const Results& results, const std::string& study) {
-  constexpr std::size_t most_orders = 40;
+  constexpr std::size_t most_orders = 30;
   auto list = orders_of(results, study);
   std::erase_if(
       list, [](const OrderRecord* order) { return std::isnan(order->observed) && std::isnan(order->gci); });
