@@ -60,10 +60,6 @@ class Neighbourhood {
       wall_pair(e, d, slope(d));
     }
   }
-  template <class Pair>
-  void for_pairs(std::size_t p, const Pair& pair) const {
-    for_pairs(p, fresh_slope(), pair, pair);
-  }
 
   [[nodiscard]] auto fresh_slope() const {
     return [this](const Vec2& d) { return kernel_.gradient(d.squaredNorm()); };

@@ -38,7 +38,7 @@ reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long
 struct StudyData {
   const Study* study = nullptr;
   std::shared_ptr<const Study> settled;  ///< *study, where its runs had a say in it (settle_locations)
-  std::vector<RunData> runs;  ///< in the order of study->runs
+  std::vector<RunData> runs;             ///< in the order of study->runs
   std::vector<reports::LevelRecord> levels;
   std::vector<reports::OrderRecord> orders;
   std::vector<reports::CheckRecord> checks;

@@ -69,7 +69,8 @@ std::vector<reports::MatrixRecord> matrix_records(const StudyData& data) {
   if (!data.study->matrix) return records;
   for (const reports::OrderRecord& order : data.orders) {
     const RunData& run = *data.runs_of(order.variant).front();
-    if (run.plan->scene.incompressible || order.norm != "l2" || order.t != run.plan->scene.outputs.back()) continue;
+    if (run.plan->scene.incompressible || order.norm != "l2" || order.t != run.plan->scene.outputs.back())
+      continue;
     const Axis axis = data.study->ladder.axis;
     const mpm::FormalOrder formal = formal_order(run.plan->scene);
     reports::MatrixRecord record{

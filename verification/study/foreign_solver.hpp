@@ -37,8 +37,8 @@ struct ForeignSolver {
   std::vector<Location> locations;  ///< of its profile; of those that it may hold where none is declared
   /// Whether the study, or results that are there, say which; else what the runs deliver decides.
   bool locations_known = true;
-  int points_across = 0;            ///< fewest in a profile at each output; 0: as many as cells across
-  std::string points_reason;        ///< why fewer than cells will do
+  int points_across = 0;      ///< fewest in a profile at each output; 0: as many as cells across
+  std::string points_reason;  ///< why fewer than cells will do
 
   [[nodiscard]] bool delivers_record(Record record) const;
   /// Its results are there already: nothing is run.

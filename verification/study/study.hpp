@@ -78,7 +78,7 @@ struct CheckSpec {
   std::vector<std::string> variants;  ///< that it speaks of
   std::vector<Location> locations;
   bool locations_by_default = false;  ///< all that are delivered, since it names none
-  std::string norm;  ///< "l1", "l2", "linf"
+  std::string norm;                   ///< "l1", "l2", "linf"
   /// What errors are judged against: "" for the flow's own scale, "steady", "present", or "value".
   std::string relative_to;
   double scale = 0;  ///< "value": [m/s]
