@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "reports/figures/figure_script.hpp"
+#include "reports/figures/drawing/figure_script.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/files/io_error.hpp"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/figures/figure_script.hpp"
+#include "reports/figures/drawing/figure_script.hpp"
 #include "reports/figures/figures.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/run_files.hpp"
 
 namespace reports {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <map>
 
-#include "reports/figures/figure_script.hpp"
+#include "reports/figures/drawing/figure_script.hpp"
 #include "reports/figures/figures.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/run_files.hpp"
 
 namespace reports {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "reports/figures/figure_script.hpp"
+#include "reports/figures/drawing/figure_script.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/records/report_data.hpp"
 #include "reports/summaries/work_precision.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/figures/figure_script.hpp"
+#include "reports/figures/drawing/figure_script.hpp"
 #include "reports/records/records.hpp"
 
 namespace reports {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "reports/figures/figure_script.hpp"
+#include "reports/figures/drawing/figure_script.hpp"
 #include "reports/records/report_data.hpp"
 
 namespace reports {

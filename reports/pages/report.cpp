@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "reports/figures/for_each_index.hpp"
-#include "reports/figures/gnuplot.hpp"
+#include "reports/figures/drawing/for_each_index.hpp"
+#include "reports/figures/drawing/gnuplot.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/browser.hpp"
 #include "reports/pages/html/report_html.hpp"

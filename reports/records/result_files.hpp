@@ -29,25 +29,6 @@ void write_results(const std::filesystem::path& dir, const Results& results,
 /// (*.tmp).
 void remove_tables(const std::filesystem::path& dir);
 
-/// profiles/<run>.csv. Files of runs are not flushed to disk (Durability::Unsynced), and not touched where
-/// the bytes are there.
-std::vector<ProfileRow> read_profile(const std::filesystem::path& dir, const std::string& run);
-void write_profile(const std::filesystem::path& dir, const std::string& run,
-                   const std::vector<ProfileRow>& rows);
-
-/// profiles/<run>.history.csv
-std::vector<HistoryRow> read_history(const std::filesystem::path& dir, const std::string& run);
-void write_history(const std::filesystem::path& dir, const std::string& run,
-                   const std::vector<HistoryRow>& rows);
-
-/// profiles/<run>.shear.csv
-std::vector<ShearRow> read_shear(const std::filesystem::path& dir, const std::string& run);
-void write_shear(const std::filesystem::path& dir, const std::string& run, const std::vector<ShearRow>& rows);
-
-/// profiles/<run>.state.csv
-std::vector<StateRow> read_state(const std::filesystem::path& dir, const std::string& run);
-void write_state(const std::filesystem::path& dir, const std::string& run, const std::vector<StateRow>& rows);
-
 /// True for a name that is safe as a file stem: letters, digits and . _ = -, neither empty nor starting with
 /// a dot, not ending in ".history", ".shear", ".state" or ".surface" (those are other files), at most 200
 /// characters.

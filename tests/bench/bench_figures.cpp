@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "reports/figures/figure_script.hpp"
-#include "reports/figures/gnuplot.hpp"
+#include "reports/figures/drawing/figure_script.hpp"
+#include "reports/figures/drawing/gnuplot.hpp"
 #include "tests/bench/work_count.hpp"
 
 namespace bench {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "verification/checks/expected_checks.hpp"
-#include "verification/checks/quantities.hpp"
+#include "verification/checks/quantities/quantities.hpp"
 #include "verification/checks/stability_checks.hpp"
 
 namespace verification {

@@ -6,7 +6,7 @@
 
 #include "verification/checks/check_keys.hpp"
 #include "verification/checks/check_reader.hpp"
-#include "verification/checks/quantities.hpp"
+#include "verification/checks/quantities/quantities.hpp"
 
 namespace verification {
 namespace {

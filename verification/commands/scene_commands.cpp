@@ -4,6 +4,7 @@
 #include "reports/pages/report.hpp"
 #include "reports/records/result_directory.hpp"
 #include "reports/records/result_files.hpp"
+#include "reports/records/run_files.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/output.hpp"
 #include "verification/commands/provenance_of.hpp"

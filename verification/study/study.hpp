@@ -87,7 +87,7 @@ struct CheckSpec {
   std::vector<double> times;   ///< [s]
   std::string level;           ///< "finest", "coarsest", "all", or the end of a run's name, e.g. "n20"
   std::string against;         ///< variant to compare with
-  std::string quantity;        ///< conserved quantity, or one of checks/quantities.hpp
+  std::string quantity;        ///< conserved quantity, or one of checks/quantities/quantities.hpp
   double tolerance = 0;        ///< half width of a band about each variant's own theory
   double place = 0;            ///< fraction of the gap
   double stability_limit = 0;  ///< of nu dt/h^2, for chatter

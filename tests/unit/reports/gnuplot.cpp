@@ -1,10 +1,10 @@
-#include "reports/figures/gnuplot.hpp"
+#include "reports/figures/drawing/gnuplot.hpp"
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "reports/figures/figure_script.hpp"
+#include "reports/figures/drawing/figure_script.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/scratch_directory.hpp"

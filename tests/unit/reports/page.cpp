@@ -4,7 +4,7 @@
 #include <string>
 
 #include "reports/compare/earlier_run.hpp"
-#include "reports/figures/gnuplot.hpp"
+#include "reports/figures/drawing/gnuplot.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/html/inline_svg.hpp"
 #include "reports/pages/html/svg_marks.hpp"

@@ -6,9 +6,9 @@
 #include <map>
 #include <regex>
 
-#include "reports/figures/figure_script.hpp"
+#include "reports/figures/drawing/figure_script.hpp"
+#include "reports/figures/drawing/gnuplot.hpp"
 #include "reports/figures/figures.hpp"
-#include "reports/figures/gnuplot.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/pages/console_table.hpp"

@@ -1,4 +1,4 @@
-#include "reports/figures/gnuplot.hpp"
+#include "reports/figures/drawing/gnuplot.hpp"
 #include "reports/files/csv.hpp"
 #include "reports/files/utf8.hpp"
 #include "reports/pages/junit.hpp"

@@ -8,6 +8,7 @@
 
 #include "reports/records/provenance.hpp"
 #include "reports/records/result_files.hpp"
+#include "reports/records/run_files.hpp"
 
 namespace {
 

@@ -94,6 +94,7 @@ TEST_CASE("the initial gradient is taken over a ten-thousandth of a cell along e
   Scene scene;
   scene.size = {1000, 1};
   scene.cells = {1, 1};
+  scene.particles_per_cell = {3, 3};  // two would lie where the gradient is zero, whatever the step
   const double k = 2 * std::acos(-1.0);
   scene.initial_velocity = [k](const Vec2& x) { return Vec2(std::sin(k * x.y()), x.x()); };
   const Particles particles = seed_particles(scene);

@@ -1,4 +1,4 @@
-#include "verification/checks/oscillation.hpp"
+#include "verification/checks/quantities/oscillation.hpp"
 
 #include <cmath>
 #include <numbers>

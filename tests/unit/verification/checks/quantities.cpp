@@ -1,4 +1,4 @@
-#include "verification/checks/quantities.hpp"
+#include "verification/checks/quantities/quantities.hpp"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "tests/catch.hpp"
-#include "verification/checks/surface/shift_check.hpp"
+#include "verification/checks/shift_check.hpp"
 
 using namespace verification;
 

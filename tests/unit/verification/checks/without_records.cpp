@@ -3,7 +3,7 @@
 #include "tests/study_text.hpp"
 #include "tests/unit/verification/read_text.hpp"
 #include "verification/checks/comparison.hpp"
-#include "verification/checks/quantities.hpp"
+#include "verification/checks/quantities/quantities.hpp"
 
 using namespace verification;
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "tests/catch.hpp"
-#include "verification/checks/quantities.hpp"
+#include "verification/checks/quantities/quantities.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/runs/run_simulation.hpp"
 #include "verification/scene/scene_config.hpp"

@@ -1,4 +1,4 @@
-#include "reports/figures/figure_cache.hpp"
+#include "reports/figures/drawing/figure_cache.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

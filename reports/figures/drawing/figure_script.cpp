@@ -1,4 +1,4 @@
-#include "reports/figures/figure_script.hpp"
+#include "reports/figures/drawing/figure_script.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "reports/figures/gnuplot.hpp"
+#include "reports/figures/drawing/gnuplot.hpp"
 
 namespace reports {
 

@@ -1,4 +1,4 @@
-#include "reports/figures/gnuplot.hpp"
+#include "reports/figures/drawing/gnuplot.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <system_error>
 #include <vector>
 
-#include "reports/figures/figure_cache.hpp"
-#include "reports/figures/for_each_index.hpp"
+#include "reports/figures/drawing/figure_cache.hpp"
+#include "reports/figures/drawing/for_each_index.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/files/program.hpp"

@@ -13,13 +13,6 @@ struct Quantity {
   double place = 0;  ///< distance from the resting plate as a fraction of the gap, for local quantities
 };
 
-/// A quantity by name, and how it is taken of a run.
-struct QuantityEntry {
-  const char *name, *unit;
-  bool time, place;
-  double (*evaluate)(const Quantity&, const RunData&);
-};
-
 /// Known names, one a line, with their units:
 ///
 /// - settling-time [s]: first time after which the probe stays within 1 % of its steady velocity (t99)

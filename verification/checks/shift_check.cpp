@@ -1,4 +1,4 @@
-#include "verification/checks/surface/shift_check.hpp"
+#include "verification/checks/shift_check.hpp"
 
 #include <fmt/format.h>
 

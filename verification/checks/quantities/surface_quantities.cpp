@@ -1,9 +1,8 @@
-#include "verification/checks/surface/surface_quantities.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "verification/checks/quantities/quantity_entries.hpp"
 #include "verification/runs/measures.hpp"
 
 namespace verification {
@@ -94,19 +93,19 @@ double energy_change(const RunData& run) {
 }  // namespace
 
 void add_surface_quantities(std::vector<QuantityEntry>& entries) {
-  entries.push_back(
-      {"front", "m", true, false, [](const Quantity& q, const RunData& r) { return front(r, q.time); }});
-  entries.push_back(
-      {"front-slope", "1", false, false, [](const Quantity&, const RunData& r) { return front_slope(r); }});
-  entries.push_back({"front-error", "1", true, false,
+  entries.push_back({"front", "m", Record::Profile, true, false,
+                     [](const Quantity& q, const RunData& r) { return front(r, q.time); }});
+  entries.push_back({"front-slope", "1", Record::Profile, false, false,
+                     [](const Quantity&, const RunData& r) { return front_slope(r); }});
+  entries.push_back({"front-error", "1", Record::Profile, true, false,
                      [](const Quantity& q, const RunData& r) { return front_error(r, q.time); }});
-  entries.push_back({"front-exponent-error", "1", false, false,
+  entries.push_back({"front-exponent-error", "1", Record::Profile, false, false,
                      [](const Quantity&, const RunData& r) { return front_exponent_error(r); }});
-  entries.push_back({"column-height", "m", true, false,
+  entries.push_back({"column-height", "m", Record::Profile, true, false,
                      [](const Quantity& q, const RunData& r) { return column_height(r, q.time); }});
-  entries.push_back({"energy-growth", "1", false, false,
+  entries.push_back({"energy-growth", "1", Record::History, false, false,
                      [](const Quantity&, const RunData& r) { return energy_growth(r); }});
-  entries.push_back({"energy-change", "1", false, false,
+  entries.push_back({"energy-change", "1", Record::History, false, false,
                      [](const Quantity&, const RunData& r) { return energy_change(r); }});
 }
 
