@@ -4,19 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "reports/pages/html/page.hpp"
+#include "reports/pages/sections/crossed_table.hpp"
 #include "reports/records/report_data.hpp"
 
 namespace reports {
 namespace {
-
-/// Rows and columns in the order in which they first occur.
-struct Layout {
-  std::vector<std::string> rows, columns;
-  std::map<std::pair<std::string, std::string>, const MatrixRecord*> cells;
-};
 
 std::string row_of(const MatrixRecord& r) {
   return r.basis + ", " + r.transfer + ", " + r.stepping;
@@ -25,17 +19,10 @@ std::string column_of(const MatrixRecord& r) {
   return r.scene + ", " + r.axis + ", " + r.location;
 }
 
-Layout layout(const std::vector<MatrixRecord>& matrix) {
-  Layout result;
-  for (const MatrixRecord& record : matrix) {
-    const std::string row = row_of(record), column = column_of(record);
-    if (std::find(result.rows.begin(), result.rows.end(), row) == result.rows.end())
-      result.rows.push_back(row);
-    if (std::find(result.columns.begin(), result.columns.end(), column) == result.columns.end())
-      result.columns.push_back(column);
-    result.cells[{row, column}] = &record;
-  }
-  return result;
+CrossedTable<MatrixRecord> crossed(const std::vector<MatrixRecord>& matrix) {
+  CrossedTable<MatrixRecord> table;
+  for (const MatrixRecord& record : matrix) table.add(row_of(record), column_of(record), record);
+  return table;
 }
 
 std::string interval(const MatrixRecord& r) {
@@ -50,7 +37,7 @@ std::string theory(const MatrixRecord& r) {
 
 std::string html_matrix(const std::vector<MatrixRecord>& matrix) {
   if (matrix.empty()) return "";
-  const Layout table = layout(matrix);
+  const CrossedTable<MatrixRecord> table = crossed(matrix);
   std::string head = "<th>basis, transfer, stepping</th>";
   for (const std::string& column : table.columns) head += "<th>" + html_text(column) + "</th>";
   std::string rows;
@@ -90,7 +77,7 @@ std::string html_matrix(const std::vector<MatrixRecord>& matrix) {
 
 std::string markdown_matrix(const std::vector<MatrixRecord>& matrix) {
   if (matrix.empty()) return "";
-  const Layout table = layout(matrix);
+  const CrossedTable<MatrixRecord> table = crossed(matrix);
   std::string text =
       "\n## Order matrix\n\nObserved L2 order (theory); see report.html for intervals and errors.\n\n| "
       "scheme |";

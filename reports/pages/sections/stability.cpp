@@ -2,21 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "reports/pages/html/page.hpp"
+#include "reports/pages/sections/crossed_table.hpp"
 #include "reports/records/report_data.hpp"
 
 namespace reports {
 namespace {
-
-/// Rows and columns in the order in which they first occur; a limit measured by several studies stands once.
-struct Layout {
-  std::vector<std::string> rows, columns;
-  std::map<std::pair<std::string, std::string>, const StabilityRecord*> cells;
-};
 
 std::string row_of(const StabilityRecord& record) {
   return record.basis + ", " + record.transfer + ", " + record.stepping;
@@ -32,18 +25,12 @@ std::string column_of(const StabilityRecord& record) {
   return record.waves + " waves, " + record.motion + "; " + ray_of(record) + "; " + record.lattice;
 }
 
-Layout layout(const std::vector<StabilityRecord>& limits) {
-  Layout result;
-  const auto add = [](std::vector<std::string>& list, const std::string& entry) {
-    if (std::find(list.begin(), list.end(), entry) == list.end()) list.push_back(entry);
-  };
-  for (const StabilityRecord& record : limits) {
-    if (record.kind != "measured") continue;
-    add(result.rows, row_of(record));
-    add(result.columns, column_of(record));
-    result.cells[{row_of(record), column_of(record)}] = &record;
-  }
-  return result;
+/// A limit measured by several studies stands once.
+CrossedTable<StabilityRecord> crossed(const std::vector<StabilityRecord>& limits) {
+  CrossedTable<StabilityRecord> table;
+  for (const StabilityRecord& record : limits)
+    if (record.kind == "measured") table.add(row_of(record), column_of(record), record);
+  return table;
 }
 
 /// "1.500" for a ray along an axis, "0.61, 0.61" for r and CFL on another.
@@ -72,7 +59,7 @@ constexpr const char* explanation =
 }  // namespace
 
 std::string html_stability(const std::vector<StabilityRecord>& limits) {
-  const Layout table = layout(limits);
+  const CrossedTable<StabilityRecord> table = crossed(limits);
   if (table.rows.empty()) return "";
   std::string head = "<th>basis, transfer, stepping</th>";
   for (const std::string& column : table.columns) {
@@ -101,7 +88,7 @@ std::string html_stability(const std::vector<StabilityRecord>& limits) {
 }
 
 std::string markdown_stability(const std::vector<StabilityRecord>& limits) {
-  const Layout table = layout(limits);
+  const CrossedTable<StabilityRecord> table = crossed(limits);
   if (table.rows.empty()) return "";
   std::string text = fmt::format("\n## Stability limits\n\n{} Measured (theory).\n\n| scheme |", explanation);
   std::string rule = "\n|---|";

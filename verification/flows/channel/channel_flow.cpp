@@ -8,6 +8,7 @@
 #include "reference/channel/discrete_usf_channel.hpp"
 #include "reference/channel/steady_channel.hpp"
 #include "reference/transient/transient_channel.hpp"
+#include "verification/flows/layer.hpp"
 #include "verification/flows/reference_store.hpp"
 
 namespace verification {
@@ -110,17 +111,10 @@ ChannelFlow::ChannelFlow(const ChannelParameters& parameters) : parameters_(para
 
 mpm::Scene ChannelFlow::scene(const Discretisation& d) const {
   const int along = parameters_.axis, across = 1 - along;
-  mpm::Scene scene;
-  const double h = parameters_.height / d.cells;
-  scene.size[across] = parameters_.height;
-  scene.size[along] = parameters_.length > 0 ? parameters_.length : h * d.cells_along;
-  scene.cells[static_cast<std::size_t>(across)] = d.cells;
-  scene.cells[static_cast<std::size_t>(along)] = d.cells_along;
-  scene.particles_per_cell[static_cast<std::size_t>(across)] = d.particles_across;
-  scene.particles_per_cell[static_cast<std::size_t>(along)] = d.particles_along;
-  scene.side(across == 1 ? mpm::Edge::Bottom : mpm::Edge::Left) = mpm::Side::wall(Vec2::Zero());
-  scene.side(across == 1 ? mpm::Edge::Top : mpm::Edge::Right) =
-      mpm::Side::wall(parameters_.plate_velocity * unit(along));
+  mpm::Scene scene = layer(parameters_.height, along, d);
+  if (parameters_.length > 0) scene.size[along] = parameters_.length;
+  scene.side(first_edge(across)) = mpm::Side::wall(Vec2::Zero());
+  scene.side(last_edge(across)) = mpm::Side::wall(parameters_.plate_velocity * unit(along));
   const Vec2 b = parameters_.body_acceleration * unit(along);
   scene.body_acceleration = [b](double) { return b; };
   scene.fluid = parameters_.fluid.solver;

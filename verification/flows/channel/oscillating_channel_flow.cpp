@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "verification/flows/layer.hpp"
+
 namespace verification {
 namespace {
 
@@ -43,20 +45,14 @@ OscillatingChannelFlow::OscillatingChannelFlow(const OscillatingChannelFlowParam
 mpm::Scene OscillatingChannelFlow::scene(const Discretisation& d) const {
   const int along = parameters_.axis, across = 1 - along;
   const double omega = angular(parameters_.frequency);
-  mpm::Scene scene;
-  scene.size[across] = parameters_.height;
-  scene.size[along] = parameters_.height / d.cells * d.cells_along;
-  scene.cells[static_cast<std::size_t>(across)] = d.cells;
-  scene.cells[static_cast<std::size_t>(along)] = d.cells_along;
-  scene.particles_per_cell[static_cast<std::size_t>(across)] = d.particles_across;
-  scene.particles_per_cell[static_cast<std::size_t>(along)] = d.particles_along;
+  mpm::Scene scene = layer(parameters_.height, along, d);
   const Vec2 plate = parameters_.plate_velocity * unit(along);
   mpm::Side moving;
   moving.periodic = false;
   moving.velocity = [=](double t) -> Vec2 { return std::cos(omega * t) * plate; };
   moving.acceleration = [=](double t) -> Vec2 { return -omega * std::sin(omega * t) * plate; };
-  scene.side(across == 1 ? mpm::Edge::Bottom : mpm::Edge::Left) = mpm::Side::wall(Vec2::Zero());
-  scene.side(across == 1 ? mpm::Edge::Top : mpm::Edge::Right) = moving;
+  scene.side(first_edge(across)) = mpm::Side::wall(Vec2::Zero());
+  scene.side(last_edge(across)) = moving;
   const Vec2 force = parameters_.body_acceleration * unit(along);
   scene.body_acceleration = [=](double t) -> Vec2 { return std::cos(omega * t) * force; };
   scene.initial_velocity = [field = exact({})](const Vec2& x) {

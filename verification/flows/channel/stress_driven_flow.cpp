@@ -6,6 +6,7 @@
 #include "reference/channel/traction/stress_driven_channel.hpp"
 #include "reference/transient/transient_channel.hpp"
 #include "verification/flows/channel/channel_flow.hpp"
+#include "verification/flows/layer.hpp"
 #include "verification/flows/reference_store.hpp"
 
 namespace verification {
@@ -38,15 +39,9 @@ StressDrivenFlow::StressDrivenFlow(const StressDrivenFlowParameters& parameters)
 
 mpm::Scene StressDrivenFlow::scene(const Discretisation& d) const {
   const int along = parameters_.axis, across = 1 - along;
-  mpm::Scene scene;
-  scene.size[across] = parameters_.height;
-  scene.size[along] = parameters_.height / d.cells * d.cells_along;
-  scene.cells[static_cast<std::size_t>(across)] = d.cells;
-  scene.cells[static_cast<std::size_t>(along)] = d.cells_along;
-  scene.particles_per_cell[static_cast<std::size_t>(across)] = d.particles_across;
-  scene.particles_per_cell[static_cast<std::size_t>(along)] = d.particles_along;
-  scene.side(across == 1 ? mpm::Edge::Bottom : mpm::Edge::Left) = mpm::Side::wall(Vec2::Zero());
-  scene.side(across == 1 ? mpm::Edge::Top : mpm::Edge::Right) = mpm::Side::pulled(parameters_.stress);
+  mpm::Scene scene = layer(parameters_.height, along, d);
+  scene.side(first_edge(across)) = mpm::Side::wall(Vec2::Zero());
+  scene.side(last_edge(across)) = mpm::Side::pulled(parameters_.stress);
   scene.fluid = parameters_.fluid.solver;
   return scene;
 }

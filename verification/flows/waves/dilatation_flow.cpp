@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "verification/flows/layer.hpp"
+
 namespace verification {
 namespace {
 
@@ -40,13 +42,7 @@ DilatationFlow::DilatationFlow(const DilatationFlowParameters& parameters)
 
 mpm::Scene DilatationFlow::scene(const Discretisation& d) const {
   const int across = parameters_.axis, along = 1 - across;
-  mpm::Scene scene;
-  scene.size[across] = parameters_.length;
-  scene.size[along] = parameters_.length / d.cells * d.cells_along;
-  scene.cells[static_cast<std::size_t>(across)] = d.cells;
-  scene.cells[static_cast<std::size_t>(along)] = d.cells_along;
-  scene.particles_per_cell[static_cast<std::size_t>(across)] = d.particles_across;
-  scene.particles_per_cell[static_cast<std::size_t>(along)] = d.particles_along;
+  mpm::Scene scene = layer(parameters_.length, along, d);
   const auto wall_at = [&](double x) {
     mpm::Side wall;
     wall.periodic = false;

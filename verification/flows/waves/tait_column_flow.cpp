@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "verification/flows/layer.hpp"
+
 namespace verification {
 namespace {
 
@@ -35,15 +37,9 @@ TaitColumnFlow::TaitColumnFlow(const TaitColumnFlowParameters& parameters)
 
 mpm::Scene TaitColumnFlow::scene(const Discretisation& d) const {
   const int across = parameters_.axis, along = 1 - across;
-  mpm::Scene scene;
-  scene.size[across] = parameters_.height;
-  scene.size[along] = parameters_.height / d.cells * d.cells_along;
-  scene.cells[static_cast<std::size_t>(across)] = d.cells;
-  scene.cells[static_cast<std::size_t>(along)] = d.cells_along;
-  scene.particles_per_cell[static_cast<std::size_t>(across)] = d.particles_across;
-  scene.particles_per_cell[static_cast<std::size_t>(along)] = d.particles_along;
-  scene.side(across == 1 ? mpm::Edge::Bottom : mpm::Edge::Left) = mpm::Side::wall(Vec2::Zero());
-  scene.side(across == 1 ? mpm::Edge::Top : mpm::Edge::Right) = mpm::Side::wall(Vec2::Zero());
+  mpm::Scene scene = layer(parameters_.height, along, d);
+  scene.side(first_edge(across)) = mpm::Side::wall(Vec2::Zero());
+  scene.side(last_edge(across)) = mpm::Side::wall(Vec2::Zero());
   scene.body_acceleration = [b = Vec2(-gravity_ * unit(across))](double) { return b; };
   scene.initial_density = [across, column = solution_](const Vec2& x) { return column->density(x[across]); };
   scene.fluid = parameters_.fluid;

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "verification/flows/layer.hpp"
+
 namespace verification {
 namespace {
 
@@ -55,14 +57,7 @@ std::shared_ptr<const ExactField> shear_wave_field(std::shared_ptr<const referen
 }
 
 mpm::Scene periodic_box(const WaveParameters& parameters, const Discretisation& d) {
-  const int across = parameters.axis, along = 1 - across;
-  mpm::Scene scene;
-  scene.size[across] = parameters.wavelength;
-  scene.size[along] = parameters.wavelength / d.cells * d.cells_along;
-  scene.cells[static_cast<std::size_t>(across)] = d.cells;
-  scene.cells[static_cast<std::size_t>(along)] = d.cells_along;
-  scene.particles_per_cell[static_cast<std::size_t>(across)] = d.particles_across;
-  scene.particles_per_cell[static_cast<std::size_t>(along)] = d.particles_along;
+  mpm::Scene scene = layer(parameters.wavelength, 1 - parameters.axis, d);
   scene.fluid = parameters.fluid;
   return scene;
 }
