@@ -31,13 +31,17 @@ Headline headline(const std::string& title, const std::string& figure,
                   -std::numeric_limits<double>::infinity(),
                   decisive(checks),
                   checks.size(),
+                  true,
                   true};
   for (const CheckRecord* check : checks) {
     result.lowest = std::isnan(check->observed) ? check->observed : std::min(result.lowest, check->observed);
     result.highest =
         std::isnan(check->observed) ? check->observed : std::max(result.highest, check->observed);
     result.holds = result.holds && holds(*check);
+    result.one_band &= check->lower == result.decisive->lower && check->upper == result.decisive->upper;
   }
+  // One range beside one band would say that all of them must lie in it.
+  if (!result.one_band) result.lowest = result.highest = result.decisive->observed;
   return result;
 }
 

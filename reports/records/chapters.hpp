@@ -27,10 +27,11 @@ std::string scope_of(const Results& results);
 /// A number of the first screen: what a group of checks came to.
 struct Headline {
   std::string title, study, figure;
-  double lowest = 0, highest = 0;  ///< observed; NaN if any of them is
+  double lowest = 0, highest = 0;  ///< observed; NaN if any of them is; of the decisive one if bands differ
   const CheckRecord* decisive;     ///< the check nearest to a bound, or the worst failure
   std::size_t checks = 0;
-  bool holds = false;  ///< all of them
+  bool holds = false;     ///< all of them
+  bool one_band = false;  ///< asked of all of them
 };
 
 /// At most `count` headlines: those of headlines.csv whose checks are there, then the checks nearest to their

@@ -33,7 +33,9 @@ std::string headline_cards(const ReportData& data, const PageFigures& figures) {
         headline.holds ? "pass" : "fail", html_text(headline.title),
         html_text(with_unit(range(headline), *headline.decisive)), headline.holds ? "required" : "REQUIRED",
         html_text(bounds(*headline.decisive)),
-        headline.checks == 1 ? "one check" : fmt::format("{} checks", headline.checks),
+        headline.checks == 1 ? "one check"
+        : headline.one_band  ? fmt::format("{} checks", headline.checks)
+                             : fmt::format("the nearest to its bounds of {} checks", headline.checks),
         html_anchor(headline.study), html_text(headline.study), figures.thumbnail(headline.figure));
   }
   return text + "</ul>\n";

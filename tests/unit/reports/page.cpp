@@ -85,6 +85,22 @@ TEST_CASE("a headline is red when one of its checks is", "[reports]") {
   CHECK(headlines[1].study == "poiseuille-time");
 }
 
+TEST_CASE("a headline of checks with several bands shows the one that is nearest to its own", "[reports]") {
+  ReportData data;
+  data.results.studies.resize(1);
+  data.results.studies[0].study = "s";
+  data.results.checks = {check_of("s", 3.9, 3.8, 4.2), check_of("s", 3.2, 3.15, 3.6)};
+  data.results.headlines = {{"Orders", "s", "", ""}};
+  const auto headlines = headlines_of(data, 1);
+  REQUIRE(headlines.size() == 1);
+  CHECK_FALSE(headlines[0].one_band);
+  CHECK(headlines[0].lowest == 3.2);
+  CHECK(headlines[0].highest == 3.2);
+  data.results.checks[1] = check_of("s", 4.0, 3.8, 4.2);
+  CHECK(headlines_of(data, 1)[0].one_band);
+  CHECK(headlines_of(data, 1)[0].highest == 4.0);
+}
+
 TEST_CASE("a figure inside the page keeps its lines, marks and texts", "[reports]") {
   if (!Gnuplot().available()) return;
   ScratchDirectory dir;

@@ -93,6 +93,18 @@ std::string check_group(const Rows& rows, const PlannedRun& plan, const ForeignS
   return "";
 }
 
+/// What the profile must hold: as declared, else whatever of "grid" and "particles" it does hold; that all
+/// runs of a study hold the same is seen where they come together (settle_locations).
+std::vector<Location> expected_locations(const std::vector<reports::ProfileRow>& rows,
+                                         const ForeignSolver& solver) {
+  if (solver.locations_known) return solver.locations;
+  std::vector<Location> held;
+  for (const Location location : solver.locations)
+    if (std::ranges::any_of(rows, [&](const auto& row) { return row.location == name(location); }))
+      held.push_back(location);
+  return held.empty() ? solver.locations : held;
+}
+
 }  // namespace
 
 double output_time(const SceneConfig& scene, double t) {
@@ -102,18 +114,6 @@ double output_time(const SceneConfig& scene, double t) {
     previous = output;
   }
   return best;
-}
-
-/// What the profile must hold: as declared, else whatever of "grid" and "particles" it does hold; that all
-/// runs of a study hold the same is seen where they come together (settle_locations).
-static std::vector<Location> expected_locations(const std::vector<reports::ProfileRow>& rows,
-                                                const ForeignSolver& solver) {
-  if (solver.locations_known) return solver.locations;
-  std::vector<Location> held;
-  for (const Location location : solver.locations)
-    if (std::ranges::any_of(rows, [&](const auto& row) { return row.location == name(location); }))
-      held.push_back(location);
-  return held.empty() ? solver.locations : held;
 }
 
 std::vector<std::string> shortcomings(const std::vector<reports::ProfileRow>& rows, const PlannedRun& plan,
