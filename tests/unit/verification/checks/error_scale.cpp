@@ -1,3 +1,6 @@
+#include <cmath>
+#include <numbers>
+
 #include "tests/study_text.hpp"
 #include "tests/unit/verification/read_text.hpp"
 #include "verification/checks/check_reader.hpp"
@@ -45,6 +48,40 @@ TEST_CASE("an error is relative to what its check says", "[scale]") {
   CHECK_THAT(judged("relative_to = 4e-6\n", 1e-5).reason, contains("relative to 4e-06 m/s"));
   for (const char* wrong : {"relative_to = \"past\"\n", "relative_to = 0\n", "relative_to = -1\n"})
     CHECK_THROWS_AS(judged(wrong, 1e-5), ConfigError);
+}
+
+TEST_CASE("the error of a flow that decays is relative to its speed at that time", "[scale]") {
+  const Study study = read_study_text(R"(title = "T"
+claim = "C"
+[scene]
+flow = "taylor-green"
+period = 1.0
+amplitude = 2.0
+[fluid]
+kinematic_viscosity = 0.01
+bulk_modulus = 6e4
+density = 1000.0
+[discretisation]
+cells = 8
+[time]
+dt = 1e-3
+outputs = [0.5, 1.0]
+[[check]]
+kind = "error"
+locations = ["grid"]
+upper = 1
+reason = "r"
+)");
+  RunData run;
+  run.plan = &study.runs.front();
+  run.profile = {{0.5, "grid", 0, 0, 1e-3, 0, 0, 0}, {1, "grid", 0, 0, 1e-3, 0, 0, 0}};
+  const auto errors = measure_errors(run);
+  REQUIRE(errors.size() == 4);  // two places, the particles' are missing
+  for (const auto& error : {errors[0], errors[2]}) {
+    const double speed = std::sqrt(2.0) * std::exp(-2 * 0.01 * std::pow(2 * std::numbers::pi, 2) * error.t);
+    CHECK_THAT(error.scale, about(speed));
+    CHECK_THAT(error.l2, about(1e-3 / speed));
+  }
 }
 
 TEST_CASE("a scale more than three times what flows is a warning", "[scale]") {

@@ -144,6 +144,13 @@ TEST_CASE("what became of a run: its error, its energy, its end") {
   }
   CHECK(time_of_divergence(broken) == Approx(2e-3).epsilon(1e-12));
   CHECK(score_of(broken, study).outcome == "diverged");
+  // Who blew up on the way has diverged, even if the end looks like the exact solution.
+  RunData back = ended(study, 0.09, 1.0);
+  back.history = broken.history;
+  CHECK(score_of(back, study).outcome == "diverged");
+  CHECK(score_of(back, study).t_diverged == Approx(2e-3).epsilon(1e-12));
+  back.history.resize(2);
+  CHECK(score_of(back, study).outcome == "survived");
 
   const reports::ScoreRecord failed = score_of(ended(study, 0, 1, "failed: no such thing"), study);
   CHECK(failed.outcome == "failed");
