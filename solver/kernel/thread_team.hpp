@@ -1,8 +1,7 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
+#include <cstddef>
 #include <thread>
 #include <vector>
 
@@ -26,18 +25,22 @@ class ThreadTeam {
 
  private:
   void run(int shares, void (*task)(const void* context, int share), const void* context);
-  void serve();
-  void work();
+  void serve(std::size_t self);
+  void work(std::size_t self);
 
-  std::mutex mutex_;
-  std::condition_variable begun_, done_;
-  long loop_ = 0;  // number of the loop in work
-  int busy_ = 0;   // helpers that have not ended it
-  bool over_ = false;
-  int shares_ = 0;
-  std::atomic<int> next_ = 0;
+  /// The shares that a thread begins with: the same ones in every loop, so that it finds in its cache what it
+  /// left there. Whoever has done his own takes over those that others have not begun.
+  struct alignas(64) Range {
+    std::atomic<int> next = 0;
+    int end = 0;
+  };
+
+  std::vector<Range> ranges_;  // of every thread
   void (*task_)(const void*, int) = nullptr;
   const void* context_ = nullptr;
+  std::atomic<unsigned> loop_ = 0;  // number of the loop in work
+  std::atomic<int> busy_ = 0;  // helpers that have not ended it
+  std::atomic<bool> over_ = false;
   std::vector<std::jthread> helpers_;
 };
 

@@ -28,7 +28,7 @@ bool full_mass_lanes_cover(const Scene& scene, const Scheme& scheme) {
 template <class Basis>
 class FullMassSolver final : public Simulation {
  public:
-  FullMassSolver(const Scene& scene, const Scheme& scheme) : passes_(scene, scheme) {}
+  FullMassSolver(const Scene& scene, const Scheme& scheme, int threads) : passes_(scene, scheme, threads) {}
 
   void advance(double t, double dt) override {
     step_leapfrog(passes_, t, dt);

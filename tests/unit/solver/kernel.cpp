@@ -268,6 +268,33 @@ TEST_CASE("vector kernels: the number of threads changes no bit") {
     }
 }
 
+TEST_CASE("vector kernels: the number of threads changes no bit of the consistent mass") {
+  for (const Scheme::Basis basis : bases)
+    for (const bool walls : {false, true}) {
+      Scene scene = whirl(19, 41);  // bands that differ in height
+      scene.particles_per_cell = {3, 3};
+      scene.seeding.displacement = 0.3;
+      if (walls) {
+        scene.side(Edge::Bottom) = Side::wall(Vec2(0.02, 0));
+        scene.side(Edge::Top) = Side::wall(Vec2(-0.01, 0));
+        scene.initial_velocity = [](const Vec2& x) { return Vec2(0.1 * std::sin(1e3 * x.y()), 0); };
+      }
+      Scheme scheme{basis, Scheme::Transfer::FullMass, Scheme::Stepping::Leapfrog};
+      scheme.reset_every = 6;
+      const auto one = make_simulation(scene, scheme, 1);
+      run_steps(*one, 4e-6, 20);
+      REQUIRE_FALSE(one->breakdown());
+      for (const int threads : {2, 3}) {
+        const auto several = make_simulation(scene, scheme, threads);
+        run_steps(*several, 4e-6, 20);
+        CHECK(one->particles().position == several->particles().position);
+        CHECK(one->particles().velocity == several->particles().velocity);
+        CHECK(one->particles().density == several->particles().density);
+        CHECK(one->totals().impulse == several->totals().impulse);
+      }
+    }
+}
+
 TEST_CASE("the benchmark's plain loop gives the solver's answer") {
   const auto agree = [](const auto& viscosity, const Rheology& rheology) {
     Scene scene;
