@@ -25,6 +25,23 @@ void wait_while(const std::atomic<Number>& value, Number old) {
   value.wait(old);
 }
 
+// A range in a word.
+constexpr int bits = 20;
+constexpr std::uint64_t all = (std::uint64_t{1} << bits) - 1;
+
+std::uint64_t word(std::uint64_t loop, int next, int end) {
+  return (loop << 2 * bits) | (static_cast<std::uint64_t>(next) << bits) | static_cast<std::uint64_t>(end);
+}
+bool is_of(std::uint64_t range, std::uint64_t loop) {
+  return range >> 2 * bits == (loop << 2 * bits) >> 2 * bits;
+}
+int next(std::uint64_t range) {
+  return static_cast<int>((range >> bits) & all);
+}
+int end(std::uint64_t range) {
+  return static_cast<int>(range & all);
+}
+
 }  // namespace
 
 ThreadTeam::ThreadTeam(int threads) : ranges_(static_cast<std::size_t>(threads)) {
@@ -42,39 +59,43 @@ ThreadTeam::~ThreadTeam() {
 }
 
 void ThreadTeam::run(int shares, void (*task)(const void* context, int share), const void* context) {
-  if (helpers_.empty() || shares < 2) {
+  if (helpers_.empty() || shares < 2 || shares > most_shares) {
     for (int share = 0; share < shares; ++share) task(context, share);
     return;
   }
   task_ = task;
   context_ = context;
-  const auto threads = static_cast<long>(helpers_.size() + 1);
-  for (long k = 0; k < threads; ++k) {
-    Range& range = ranges_[static_cast<std::size_t>(k)];
-    range.next = static_cast<int>(shares * k / threads);
-    range.end = static_cast<int>(shares * (k + 1) / threads);
-  }
-  busy_ = static_cast<int>(helpers_.size());
-  ++loop_;
+  undone_ = shares;
+  const std::uint32_t loop = loop_ + 1;
+  const auto threads = static_cast<long>(ranges_.size());
+  for (long k = 0; k < threads; ++k)
+    ranges_[static_cast<std::size_t>(k)].left =
+        word(loop, static_cast<int>(shares * k / threads), static_cast<int>(shares * (k + 1) / threads));
+  loop_ = loop;
   loop_.notify_all();
-  work(0);
-  for (int busy = busy_; busy > 0; busy = busy_) wait_while(busy_, busy);
+  work(0, loop);
+  for (int undone = undone_; undone > 0; undone = undone_) wait_while(undone_, undone);
 }
 
 void ThreadTeam::serve(std::size_t self) {
-  for (unsigned seen = 0;; ++seen) {
+  for (std::uint32_t seen = 0;;) {
     wait_while(loop_, seen);
+    seen = loop_;
     if (over_) return;
-    work(self);
-    if (--busy_ == 0) busy_.notify_one();
+    work(self, seen);
   }
 }
 
-void ThreadTeam::work(std::size_t self) {
-  const std::size_t threads = helpers_.size() + 1;
-  for (std::size_t k = 0; k < threads; ++k) {
-    Range& range = ranges_[(self + k) % threads];
-    for (int share = range.next++; share < range.end; share = range.next++) task_(context_, share);
+void ThreadTeam::work(std::size_t self, std::uint64_t loop) {
+  for (std::size_t k = 0; k < ranges_.size(); ++k) {
+    std::atomic<std::uint64_t>& left = ranges_[(self + k) % ranges_.size()].left;
+    for (std::uint64_t range = left; is_of(range, loop) && next(range) < end(range);) {
+      if (!left.compare_exchange_weak(range, word(loop, next(range) + 1, end(range)))) continue;
+      // Claimed: the loop is not over before this share is done.
+      task_(context_, next(range));
+      if (--undone_ == 0) undone_.notify_one();
+      range = left;
+    }
   }
 }
 

@@ -48,8 +48,8 @@ class FullMassKernel {
 
   /// P2G: M_ij = sum_p m_p N_ip N_jp, v = M^-1 sum_p N_ip m_p v_p. `v` is what the step starts with, too.
   virtual Balance project() = 0;
-  /// v = v_start + dt a with a = M^-1 f, f_i = m_i b - sum_p V_p sigma_p grad N_ip, sigma of the nodal velocity
-  /// before.
+  /// v = v_start + dt a with a = M^-1 f, f_i = m_i b - sum_p V_p sigma_p grad N_ip, sigma of the nodal
+  /// velocity before. dt [s].
   virtual Balance kick(Kick which, const double body_acceleration[2], double dt) = 0;
   /// G2P: v_p = v(x_p) and its gradient.
   virtual void take() = 0;

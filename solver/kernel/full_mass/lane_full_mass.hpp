@@ -79,13 +79,13 @@ class LaneFullMass final : public FullMassKernel {
         store(f, load(f) + b[c] * load(mass_[0] + i));
       }
     });
-    // As accurate as the velocity, which is what it is for. The whole kick differs little from that to the
-    // middle, and by nearly as much as in the step before.
-    const Both enough{{energy_.of[0] / (dt * dt), energy_.of[1] / (dt * dt)}};
+    // dt a is added to the velocity, which is known to 1e-14 by its own solve. The whole kick differs little
+    // from that to the middle, and by nearly as much as in the step before.
+    const Both beside{{energy_.of[0] / (dt * dt), energy_.of[1] / (dt * dt)}};
     const bool whole = which == Kick::Whole;
     LatticeVector& a = whole ? acceleration_ : middle_acceleration_;
-    const Balance balance = whole ? solve(a, middle_acceleration_, changes_, enough)
-                                  : solve(a, nothing_, middle_accelerations_, enough);
+    const Balance balance = whole ? solve(a, middle_acceleration_, changes_, beside)
+                                  : solve(a, nothing_, middle_accelerations_, beside);
     bands_.each_row([&](int row) {
       lattice_.each_vector(row, [&](int i) {
         for (std::size_t c : {0, 1}) store(velocity_[c] + i, load(start_[c] + i) + dt * load(a[c] + i));
@@ -209,8 +209,7 @@ class LaneFullMass final : public FullMassKernel {
 
   /// -sum_p V_p sigma_p grad N_ip, stress and all as in LaneKernel.
   void sum_forces() {
-    bands_.each_of_cells(
-        [&](int band, Rows cells) { right_side_.clear(lattice_, nodes_of(band, cells)); });
+    bands_.each_of_cells([&](int band, Rows cells) { right_side_.clear(lattice_, nodes_of(band, cells)); });
     with_fluid([&]<class Law, class Pressure>(const Law& law, const Pressure& pressure) {
       bands_.each_of_cells_apart([&](Rows rows) {
         NodeSums<Basis, DivergenceSums<Basis>> node_sums(basis_, {right_side_[0], right_side_[1]});
@@ -252,9 +251,9 @@ class LaneFullMass final : public FullMassKernel {
   }
 
   /// Solves for x, from where a forecast of its difference to `base` says that it is.
-  Balance solve(LatticeVector& x, const LatticeVector& base, Forecast& forecast, const Both& enough) {
+  Balance solve(LatticeVector& x, const LatticeVector& base, Forecast& forecast, const Both& beside) {
     forecast.read(bands_, time_, base, x);
-    const Balance balance = solve_(mass_[0], right_side_, x, enough);
+    const Balance balance = solve_(mass_[0], right_side_, x, beside);
     forecast.keep(bands_, time_, base, x);
     return balance;
   }

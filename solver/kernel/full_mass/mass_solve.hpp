@@ -54,9 +54,10 @@ class MassSolve {
   }
 
   /// x <- M^-1 b, from the value that x has; b stays. Without walls the total of b is kept to round-off.
-  /// `mass` is sum_p N_ip m_p. The residual that is left is 1e-14 of b, or of what a solution would have whose
-  /// square is `other` on the mean of the fluid, times its mass.
-  Balance operator()(const double* mass, const LatticeVector& b, LatticeVector& x, const Both& other) {
+  /// `mass` is sum_p N_ip m_p. What a solution is added to need not be known better than that is: the
+  /// residual r ends with r P^-1 r below 1e-28 (b P^-1 b + beside), `beside` the square y M y of that other
+  /// field, or 0.
+  Balance operator()(const double* mass, const LatticeVector& b, LatticeVector& x, const Both& beside) {
     // Beyond the last node of a row b is zero.
     const Both asked = bands_.sum([&](int i, Lanes(&sum)[2]) {
       for (std::size_t c : {0, 1}) {
@@ -64,7 +65,7 @@ class MassSolve {
         store(x[c] + i, select(is_free(i), load(x[c] + i), load(prescribed_[c] + i)));
       }
     });
-    iterate(b, x, other);
+    iterate(b, x, beside);
     if (!has_walls_) keep_total(asked, mass, x);
     fill_margins(x);
     const Both found = bands_.sum([&](int i, Lanes(&sum)[2]) {
@@ -85,9 +86,9 @@ class MassSolve {
     return {{quotient(a.of[0], b.of[0]), quotient(a.of[1], b.of[1])}};
   }
 
-  void iterate(const LatticeVector& b, LatticeVector& x, const Both& other) {
+  void iterate(const LatticeVector& b, LatticeVector& x, const Both& beside) {
     Both enough = precondition([&](int row) { begin_residual(row, b); });
-    for (int c : {0, 1}) enough.of[c] = tolerance * tolerance * (enough.of[c] + other.of[c]);
+    for (int c : {0, 1}) enough.of[c] = tolerance * tolerance * (enough.of[c] + beside.of[c]);
     fill_margins(x);
     Both size = precondition([&](int row) { subtract_product(row, b, x); });
     turn({{0, 0}});
@@ -181,7 +182,8 @@ class MassSolve {
 
   /// Adds the uniform field that makes up for what the iteration left: sum_i (M x)_i = sum_i m_i x_i.
   void keep_total(const Both& asked, const double* mass, LatticeVector& x) {
-    const Both total = bands_.sum([&](int i, Lanes(&sum)[2]) { sum[0] += load(node_[free] + i) * load(mass + i); });
+    const Both total =
+        bands_.sum([&](int i, Lanes(&sum)[2]) { sum[0] += load(node_[free] + i) * load(mass + i); });
     const Both found = bands_.sum([&](int i, Lanes(&sum)[2]) {
       for (std::size_t c : {0, 1}) sum[c] += load(node_[free] + i) * load(mass + i) * load(x[c] + i);
     });
@@ -211,9 +213,10 @@ class MassSolve {
   double negligible_mass_;
   bool has_walls_;
   long iterations_ = 0;
-  static constexpr std::size_t free = 0;     // one; zero where prescribed, or without mass, or beyond the nodes
-  static constexpr std::size_t scale = 1;    // (T_ii/M_ii)^1/2 [m/kg^1/2] where free, else zero
-  static constexpr std::size_t uniform = 2;  // T_ii, of a fluid of unit density [m2]; zero where not free ever
+  static constexpr std::size_t free = 0;   // one; zero where prescribed, or without mass, or beyond the nodes
+  static constexpr std::size_t scale = 1;  // (T_ii/M_ii)^1/2 [m/kg^1/2] where free, else zero
+  static constexpr std::size_t uniform =
+      2;  // T_ii, of a fluid of unit density [m2]; zero where not free ever
   LatticeFields<3> node_;
   LatticeVector prescribed_, residual_, z_, direction_, product_;
 };
