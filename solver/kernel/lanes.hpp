@@ -130,6 +130,12 @@ inline double sum(Lanes x) {
   return total;
 }
 
+inline double largest(Lanes x) {
+  double most = x.v[0];
+  for (int lane = 1; lane < width; ++lane) most = x.v[lane] > most ? x.v[lane] : most;
+  return most;
+}
+
 // What rheologies are written in.
 inline Lanes sqrt(Lanes x) {
   Lanes root;

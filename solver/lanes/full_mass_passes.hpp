@@ -1,41 +1,23 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <algorithm>
-
-#include "solver/grid/tensor_mass.hpp"
 #include "solver/kernel/isa.hpp"
 #include "solver/lanes/lane_particles.hpp"
+#include "solver/lanes/line_mass.hpp"
 #include "solver/step/passes.hpp"
 
 namespace mpm {
-
-/// What a line's mass matrix is, and the part of its inverse that is kept: entries fall off with the distance
-/// from the diagonal by 0.27, 0.43 and 0.54 a node for degree 1 to 3.
-inline LineMass line_mass(const Axis& axis) {
-  const Eigen::MatrixXd mass = mass_along(axis);
-  const auto count = static_cast<int>(mass.rows());
-  const Eigen::MatrixXd inverse = mass.llt().solve(Eigen::MatrixXd::Identity(count, count));
-  LineMass line{std::min(2 * axis.degree, (count - 1) / 2), count, {}, {}};
-  for (int i = 0; i < count; ++i) line.diagonal.push_back(mass(i, i));
-  for (int d = -line.reach; d <= line.reach; ++d)
-    for (int i = 0; i < count; ++i) {
-      const int j = axis.periodic ? (i + d + count) % count : i + d;
-      line.inverse.push_back(j < 0 || j >= count ? 0 : inverse(i, j));
-    }
-  return line;
-}
 
 /// The state of a simulation with the consistent mass of a plane in the vector kernels, and the passes of its
 /// leapfrog. What is done seldom, the general passes do: the start, resets, and what readers ask for.
 template <class Basis>
 class FullMassPasses {
  public:
-  FullMassPasses(const Scene& scene, const Scheme& scheme)
+  FullMassPasses(const Scene& scene, const Scheme& scheme, int threads)
       : scene_(scene),
         grid_(scene_, Basis::degree),
         layout_(scene_, grid_, Basis::degree),
         general_(scene, scheme, FullMass{}),
+        team_(threads),
         wall_values_(grid_.size(), Vec2::Zero()) {
     for (const double m : general_.state().mass) total_mass_ += m;
     const std::vector<PointState> points = points_of(general_.state(), layout_);
@@ -55,7 +37,8 @@ class FullMassPasses {
          1},
         {line_mass(layout_.axis(0)), line_mass(layout_.axis(1))},
         {},
-        negligible_mass};
+        negligible_mass,
+        &team_};
     const int along = layout_.axis(0).count();
     for (int j = 0; j < layout_.axis(1).count(); ++j)
       for (int i = 0; i < along; ++i)
@@ -101,26 +84,22 @@ class FullMassPasses {
   /// The kernel does by itself.
   void keep_start_velocity() {}
   /// Velocity at the middle of the step, by Euler.
-  void half_kick(double t, double dt) {
-    accelerate(t, t, dt / 2);
-    kernel_->advance_from_start(dt / 2);
-  }
+  void half_kick(double t, double dt) { kick(Kick::ToMiddle, t, t, dt / 2); }
   /// The whole kick with the forces at the middle of the step.
   void kick_from_middle(double t, double dt) {
-    const Balance force = accelerate(t, t + dt / 2, dt);
+    const Balance force = kick(Kick::Whole, t, t + dt / 2, dt);
     impulse_ += dt * (total_mass_ * body_acceleration(t + dt / 2) + found(force) - asked(force));
-    kernel_->advance_from_start(dt);
   }
   void grid_to_particles(double) { kernel_->take(); }
   void close_drift(double t, double dt) { drift(t, dt); }
 
  private:
   /// With the body force at a time, and walls that get from t to t + dt.
-  Balance accelerate(double t, double time_of_force, double dt) {
+  Balance kick(Kick which, double t, double time_of_force, double dt) {
     prescribe([&](VectorField& a) { general_.walls().impose_mean_acceleration(a, t, dt); });
     const Vec2 b = body_acceleration(time_of_force);
     const double of_kernel[2] = {b[layout_.axis_of(0)], b[layout_.axis_of(1)]};
-    return kernel_->accelerate(of_kernel);
+    return kernel_->kick(which, of_kernel, dt);
   }
 
   [[nodiscard]] Vec2 body_acceleration(double t) const {
@@ -163,6 +142,7 @@ class FullMassPasses {
   mutable Passes<Basis, FullMass> general_;
   mutable bool is_stale_ = false;  // the general particles
   std::array<std::vector<double>, 2> functions_;
+  ThreadTeam team_;
   std::unique_ptr<FullMassKernel> kernel_;
   std::vector<Wall> walls_;
   VectorField wall_values_;

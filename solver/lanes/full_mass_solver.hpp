@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/grid/field_samples.hpp"
 #include "solver/lanes/full_mass_passes.hpp"
 #include "solver/simulation.hpp"
 #include "solver/step/whole_pass_steps.hpp"
@@ -28,7 +29,7 @@ bool full_mass_lanes_cover(const Scene& scene, const Scheme& scheme) {
 template <class Basis>
 class FullMassSolver final : public Simulation {
  public:
-  FullMassSolver(const Scene& scene, const Scheme& scheme) : passes_(scene, scheme) {}
+  FullMassSolver(const Scene& scene, const Scheme& scheme, int threads) : passes_(scene, scheme, threads) {}
 
   void advance(double t, double dt) override {
     step_leapfrog(passes_, t, dt);
@@ -40,18 +41,12 @@ class FullMassSolver final : public Simulation {
 
   [[nodiscard]] VectorField grid_field(const VectorField& points, double t) const override {
     const Grid grid = passes_.mapped_grid(t);
-    VectorField velocities;
-    velocities.reserve(points.size());
-    for (const Vec2& point : points) velocities.push_back(interpolate<Basis>(grid, grid.velocity, point));
-    return velocities;
+    return field_at<Basis>(grid, grid.velocity, points);
   }
 
   [[nodiscard]] std::vector<Mat2> grid_gradient(const VectorField& points, double t) const override {
     const Grid grid = passes_.mapped_grid(t);
-    std::vector<Mat2> gradients;
-    gradients.reserve(points.size());
-    for (const Vec2& point : points) gradients.push_back(gradient<Basis>(grid, grid.velocity, point));
-    return gradients;
+    return gradient_at<Basis>(grid, grid.velocity, points);
   }
 
   [[nodiscard]] Totals totals() const override { return totals_of(passes_.particles(), passes_.impulse()); }

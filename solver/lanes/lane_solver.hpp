@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/grid/field_samples.hpp"
 #include "solver/lanes/lane_passes.hpp"
 #include "solver/simulation.hpp"
 
@@ -37,19 +38,11 @@ class LaneSolver final : public Simulation {
   [[nodiscard]] const Particles& particles() const override { return passes_.particles(); }
 
   [[nodiscard]] VectorField grid_field(const VectorField& points, double t) const override {
-    const VectorField nodal = passes_.mapped_velocity(t);
-    VectorField velocities;
-    velocities.reserve(points.size());
-    for (const Vec2& point : points) velocities.push_back(interpolate<Basis>(passes_.grid(), nodal, point));
-    return velocities;
+    return field_at<Basis>(passes_.grid(), passes_.mapped_velocity(t), points);
   }
 
   [[nodiscard]] std::vector<Mat2> grid_gradient(const VectorField& points, double t) const override {
-    const VectorField nodal = passes_.mapped_velocity(t);
-    std::vector<Mat2> gradients;
-    gradients.reserve(points.size());
-    for (const Vec2& point : points) gradients.push_back(gradient<Basis>(passes_.grid(), nodal, point));
-    return gradients;
+    return gradient_at<Basis>(passes_.grid(), passes_.mapped_velocity(t), points);
   }
 
   [[nodiscard]] Totals totals() const override { return totals_of(passes_.particles(), passes_.impulse()); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/grid/field_samples.hpp"
 #include "solver/simulation.hpp"
 #include "solver/step/explicit_steps.hpp"
 #include "solver/step/passes.hpp"
@@ -24,18 +25,12 @@ class Solver final : public Simulation {
 
   [[nodiscard]] VectorField grid_field(const VectorField& points, double t) const override {
     const Grid grid = passes_.mapped_grid(t);
-    VectorField velocities;
-    velocities.reserve(points.size());
-    for (const Vec2& point : points) velocities.push_back(interpolate<Basis>(grid, grid.velocity, point));
-    return velocities;
+    return field_at<Basis>(grid, grid.velocity, points);
   }
 
   [[nodiscard]] std::vector<Mat2> grid_gradient(const VectorField& points, double t) const override {
     const Grid grid = passes_.mapped_grid(t);
-    std::vector<Mat2> gradients;
-    gradients.reserve(points.size());
-    for (const Vec2& point : points) gradients.push_back(gradient<Basis>(grid, grid.velocity, point));
-    return gradients;
+    return gradient_at<Basis>(grid, grid.velocity, points);
   }
 
   [[nodiscard]] Totals totals() const override { return totals_of(passes_.particles(), passes_.impulse()); }

@@ -37,6 +37,11 @@ class Derivation {
             "speed over the general solver, particle by particle");
   }
 
+  void over_plain_vortices() {
+    for (const std::string scheme : {"cubic_full_mass_leapfrog", "quadratic_apic"})
+      ratio("vortex/" + scheme + "/64/1", "plain_vortex/" + scheme + "/64", "speed over the plain loop");
+  }
+
   /// Of what a step costs, in the number of cells.
   void growth_with_cells() {
     for (const auto& [scheme, all_cells] :
@@ -121,16 +126,17 @@ class Derivation {
       records_.push_back({name, "part of peak " + of, rate.value * work / peak.value, "1",
                           std::hypot(rate.spread, peak.spread)});
     };
-    for (const auto& [scheme, operations] :
-         {std::pair{std::string("vortex/quadratic_apic"), apic_operations_per_particle_step()},
-          std::pair{std::string("vortex/cubic_full_mass_leapfrog"),
-                    full_mass_operations_per_particle_step()}}) {
+    const FullMassCount full_mass = full_mass_count();
+    const std::string apic = "vortex/quadratic_apic", leapfrog = "vortex/cubic_full_mass_leapfrog";
+    records_.push_back({leapfrog, "iterations a solve", full_mass.iterations_a_solve, "1", 0});
+    const auto roofline = [&](const std::string& scheme, double operations, double bytes) {
       records_.push_back({scheme, "operations a particle-step", operations, "1", 0});
       part(scheme + "/64/1", "arithmetic", operations, arithmetic);
-    }
-    records_.push_back(
-        {"vortex/quadratic_apic", "bytes a particle-step", bytes_per_affine_particle_step, "B", 0});
-    part("vortex/quadratic_apic/256/1", "bandwidth", bytes_per_affine_particle_step, bandwidth);
+      records_.push_back({scheme, "bytes a particle-step", bytes, "B", 0});
+      part(scheme + "/256/1", "bandwidth", bytes, bandwidth);
+    };
+    roofline(apic, apic_operations_per_particle_step(), bytes_per_affine_particle_step);
+    roofline(leapfrog, full_mass.operations, bytes_per_full_mass_particle_step(full_mass.iterations_a_solve));
   }
 
   [[nodiscard]] std::vector<reports::BenchRecord> records() const { return records_; }
@@ -152,6 +158,7 @@ std::vector<reports::BenchRecord> derived(const Collector& rates) {
   Derivation derivation(rates);
   derivation.over_plain_loop();
   derivation.over_general_solver();
+  derivation.over_plain_vortices();
   derivation.growth_with_cells();
   derivation.growth();
   derivation.threads();

@@ -1,12 +1,9 @@
 #include <benchmark/benchmark.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "solver/incompressible/make_incompressible_solver.hpp"
 #include "solver/kernel/isa.hpp"
-#include "solver/simulation.hpp"
 #include "solver/step/solver.hpp"
+#include "tests/bench/vortices.hpp"
 
 // Rates of a step of the schemes that are accurate in two dimensions: Taylor-Green vortices in a periodic
 // box, Re 100, c = 20 U, by the general solver in the same run, which visits particle by particle; and of the
@@ -17,21 +14,7 @@ namespace {
 using B = mpm::Scheme::Basis;
 using T = mpm::Scheme::Transfer;
 using S = mpm::Scheme::Stepping;
-
-constexpr double speed = 1, sound = 20 * speed;
-
-mpm::Scene vortices(int cells) {
-  mpm::Scene scene;
-  scene.size = {1, 1};
-  scene.cells = {cells, cells};
-  scene.fluid.bulk_modulus = 1000 * sound * sound / 7;
-  scene.fluid.rheology = mpm::Newtonian{10};
-  scene.initial_velocity = [](const mpm::Vec2& x) {
-    constexpr double k = 2 * std::numbers::pi;
-    return mpm::Vec2(std::sin(k * x.x()) * std::cos(k * x.y()), -std::cos(k * x.x()) * std::sin(k * x.y()));
-  };
-  return scene;
-}
+using bench::vortices;
 
 /// The channel of the implicit studies: one cell along, three particles a cell across.
 mpm::Scene strip(int cells) {
@@ -47,21 +30,22 @@ mpm::Scene strip(int cells) {
   return scene;
 }
 
-/// Steps of dt [s], but for the first, which factorises or makes room; the vortices start anew before their
-/// particles leave empty cells behind.
+/// Steps that are not timed: the first factorises or makes room, and solves begin from the last four.
+constexpr int steps_before = 5;
+
+/// Steps of dt [s]; the vortices start anew before their particles leave empty cells behind.
 template <class Make>
 void steps(benchmark::State& state, const Make& make, double dt) {
   std::unique_ptr<mpm::Simulation> simulation;
   double t = 0;
   const auto begin = [&] {
     simulation = make();
-    simulation->advance(0, dt);
-    t = dt;
+    for (t = 0; t < (steps_before - 0.5) * dt; t += dt) simulation->advance(t, dt);
   };
   begin();
   const auto particles = static_cast<double>(simulation->particles().size());
   for (auto _ : state) {
-    if (t > 0.1) {
+    if (t > 0.1 + steps_before * dt) {
       state.PauseTiming();
       begin();
       state.ResumeTiming();
@@ -75,18 +59,13 @@ void steps(benchmark::State& state, const Make& make, double dt) {
   state.SetLabel(mpm::current_isa());
 }
 
-/// A third of a cell of sound.
-double sonic(int cells) {
-  return 0.3 / cells / sound;
-}
-
 /// Arguments: cells a side, threads.
 void vortex(benchmark::State& state, const mpm::Scheme& scheme) {
   const auto cells = static_cast<int>(state.range(0));
   const mpm::Scene scene = vortices(cells);
   steps(
       state, [&] { return mpm::make_simulation(scene, scheme, static_cast<int>(state.range(1))); },
-      sonic(cells));
+      bench::sonic_step(cells));
 }
 
 template <class Basis, class Transfer>
@@ -95,7 +74,29 @@ void general_vortex(benchmark::State& state, const mpm::Scheme& scheme) {
   const mpm::Scene scene = vortices(cells);
   steps(
       state, [&] { return std::make_unique<mpm::Solver<Basis, Transfer>>(scene, scheme, Transfer{}); },
-      sonic(cells));
+      bench::sonic_step(cells));
+}
+
+template <class Loop>
+void plain_vortex(benchmark::State& state, const mpm::Scheme& scheme) {
+  const auto cells = static_cast<int>(state.range(0));
+  const auto simulation = mpm::make_simulation(vortices(cells), scheme, 1);
+  const auto begin = [&] { return bench::plain_loop<Loop>(cells, simulation->particles()); };
+  Loop loop = begin();
+  const double dt = bench::sonic_step(cells);
+  double t = 0;
+  for (auto _ : state) {
+    if (t > 0.1) {
+      state.PauseTiming();
+      loop = begin();
+      t = 0;
+      state.ResumeTiming();
+    }
+    loop.step(dt);
+    t += dt;
+  }
+  state.counters["particle-steps"] = benchmark::Counter(static_cast<double>(loop.points().size()),
+                                                        benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void incompressible_vortex(benchmark::State& state, int degree) {
@@ -105,7 +106,7 @@ void incompressible_vortex(benchmark::State& state, int degree) {
   scheme.degree = degree;
   steps(
       state, [&] { return mpm::make_incompressible_solver(scene, scheme, static_cast<int>(state.range(1))); },
-      0.25 / cells / speed);
+      0.25 / cells / bench::speed);
 }
 
 void implicit_strip(benchmark::State& state, const mpm::Scheme& scheme) {
@@ -124,6 +125,13 @@ void general_apic(benchmark::State& state) {
   general_vortex<mpm::QuadraticBasis, mpm::Apic>(state, apic);
 }
 
+void plain_full_mass(benchmark::State& state) {
+  plain_vortex<plain::FullMass>(state, full_mass);
+}
+void plain_apic(benchmark::State& state) {
+  plain_vortex<plain::Apic>(state, apic);
+}
+
 const std::vector<std::vector<std::int64_t>> sizes{{16, 32, 64, 128, 256}, {1}};
 
 }  // namespace
@@ -132,6 +140,18 @@ BENCHMARK_CAPTURE(vortex, cubic_full_mass_leapfrog, full_mass)->ArgsProduct(size
 BENCHMARK_CAPTURE(vortex, quadratic_apic, apic)->ArgsProduct(sizes);
 BENCHMARK(general_full_mass)->Name("general_vortex/cubic_full_mass_leapfrog")->Arg(64);
 BENCHMARK(general_apic)->Name("general_vortex/quadratic_apic")->Arg(64);
-BENCHMARK_CAPTURE(vortex, quadratic_apic_threads, apic)->Args({128, 1})->Args({128, 2})->UseRealTime();
+BENCHMARK(plain_full_mass)->Name("plain_vortex/cubic_full_mass_leapfrog")->Arg(64);
+BENCHMARK(plain_apic)->Name("plain_vortex/quadratic_apic")->Arg(64);
+// As step/linear_threads.
+BENCHMARK_CAPTURE(vortex, cubic_full_mass_leapfrog_threads, full_mass)
+    ->Args({128, 1})
+    ->Args({128, 2})
+    ->Repetitions(15)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(vortex, quadratic_apic_threads, apic)
+    ->Args({128, 1})
+    ->Args({128, 2})
+    ->Repetitions(15)
+    ->UseRealTime();
 BENCHMARK_CAPTURE(implicit_strip, cubic_full_mass_sdirk2, sdirk2)->Arg(40);
 BENCHMARK_CAPTURE(incompressible_vortex, k3, 3)->ArgsProduct({{32, 64, 128}, {1}});

@@ -10,9 +10,14 @@ namespace bench {
 /// source has them: sums, products and quotients one each, comparisons none.
 double kernel_operations_per_particle_step();
 
-/// The same of quadratic APIC, and of cubic full mass in leapfrog steps with its solves, in vortices.
+/// The same of quadratic APIC in vortices.
 double apic_operations_per_particle_step();
-double full_mass_operations_per_particle_step();
+
+/// The same of cubic full mass in leapfrog steps, its solves included, and what these take.
+struct FullMassCount {
+  double operations, iterations_a_solve;
+};
+FullMassCount full_mass_count();
 
 /// The same of the plain loop, counted by the loop with a number that counts.
 inline double plain_operations_per_particle_step() {
@@ -30,5 +35,15 @@ inline double plain_operations_per_particle_step() {
 constexpr double bytes_per_particle_step = 8 * (6 + 6 + (5 + 5) / 4.0);
 /// The same with an affine field of four numbers a particle (APIC).
 constexpr double bytes_per_affine_particle_step = bytes_per_particle_step + 8 * (4 + 4);
+/// Of full mass in leapfrog steps, cubic, four particles a node, when the caches hold nothing from one pass
+/// to the next:
+///   a particle's place, v, m, V are read by six passes (two drifts, projection, two kicks, G2P), its affine
+///   field by the drifts; drifts and G2P write both, kicks its stress        6 * 6 + 2 * 4 + 3 * 10 + 2 * 3
+///   the 25 entries of a node are cleared, added to and completed, and read once a product, and so are eight
+///   vectors of the iteration with two components each, a quarter of
+///                                              25 * 5 + 3 * (iterations a solve + 1) * (25 + 8 * 2)
+inline double bytes_per_full_mass_particle_step(double iterations_a_solve) {
+  return 8 * (6 * 6 + 2 * 4 + 3 * 10 + 2 * 3 + (25 * 5 + 3 * (iterations_a_solve + 1) * (25 + 8 * 2)) / 4);
+}
 
 }  // namespace bench

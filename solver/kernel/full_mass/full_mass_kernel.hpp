@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/kernel/kernel.hpp"
+#include "solver/kernel/thread_team.hpp"
 
 namespace mpm {
 
@@ -11,8 +12,12 @@ namespace mpm {
 // own field (FullMass, solver/transfer/transfer.hpp), moved along straight lines. Components and plain data
 // as in kernel.hpp.
 
-/// What the matrix of a uniform fluid is along an axis, and its inverse (UniformMass, solver/grid): the
-/// entries within `reach` of the diagonal, entry (i, i + d) at (d + reach) * count + i [1/m].
+/// Entries of LineMass::inverse beside its diagonal, at most.
+constexpr int most_reach = 16;
+
+/// What the matrix of a uniform fluid is along an axis, and what comes near its inverse (line_mass(),
+/// solver/lanes): the entries within `reach` of the diagonal, entry (i, i + d) at (d + reach) * count + i
+/// [1/m].
 struct LineMass {
   int reach, count;
   std::vector<double> diagonal, inverse;  ///< [m], [1/m]
@@ -22,6 +27,9 @@ struct LineMass {
 struct Balance {
   double asked[2], found[2];
 };
+
+/// The kicks of a step, each with solutions that it begins from: to the middle of it, and the whole one.
+enum class Kick { ToMiddle, Whole };
 
 /// Nodes are numbered row * stride + i over those that have a value of their own; images of periodic nodes
 /// are the kernel's business.
@@ -40,10 +48,9 @@ class FullMassKernel {
 
   /// P2G: M_ij = sum_p m_p N_ip N_jp, v = M^-1 sum_p N_ip m_p v_p. `v` is what the step starts with, too.
   virtual Balance project() = 0;
-  /// a = M^-1 f with f_i = m_i b - sum_p V_p sigma_p grad N_ip, sigma of the nodal velocity.
-  virtual Balance accelerate(const double body_acceleration[2]) = 0;
-  /// v = v_start + dt a.
-  virtual void advance_from_start(double dt) = 0;
+  /// v = v_start + dt a with a = M^-1 f, f_i = m_i b - sum_p V_p sigma_p grad N_ip, sigma of the nodal
+  /// velocity before. dt [s].
+  virtual Balance kick(Kick which, const double body_acceleration[2], double dt) = 0;
   /// G2P: v_p = v(x_p) and its gradient.
   virtual void take() = 0;
   /// Moves the particles along straight lines (solver/transfer/straight_drift.hpp).
@@ -57,6 +64,7 @@ struct FullMassSetup {
   std::array<LineMass, 2> mass;  ///< by axis
   std::vector<int> wall_nodes;   ///< row * count along + i
   double negligible_mass;        ///< functions whose M_ii is below this part of the largest are left out
+  ThreadTeam* team;              ///< outlives the kernel
 };
 
 }  // namespace mpm

@@ -5,6 +5,7 @@
 
 #include "solver/kernel/cell_field.hpp"
 #include "solver/kernel/cell_stress.hpp"
+#include "solver/kernel/full_mass/forecast.hpp"
 #include "solver/kernel/full_mass/mass_solve.hpp"
 #include "solver/kernel/node_sums.hpp"
 
@@ -24,13 +25,19 @@ class LaneFullMass final : public FullMassKernel {
       : lattice_(setup.particles.axis, degree),
         basis_{{{setup.particles.axis[0].inverse_h, setup.particles.axis[1].inverse_h}, lattice_.stride()}},
         setup_(setup.particles),
-        solve_(lattice_, setup),
+        bands_(lattice_, setup.particles.axis[1].cells, *setup.team),
+        shares_(static_cast<std::size_t>(bands_.count())),
+        solve_(lattice_, bands_, setup),
         mass_(lattice_),
         right_side_(lattice_),
         velocity_(lattice_),
         start_(lattice_),
-        drifted_(lattice_),
-        acceleration_(lattice_) {
+        middle_acceleration_(lattice_),
+        acceleration_(lattice_),
+        nothing_(lattice_),
+        velocities_(lattice_),
+        middle_accelerations_(lattice_),
+        changes_(lattice_) {
     house(setup.particles.points, setup.particles.count);
   }
 
@@ -47,147 +54,186 @@ class LaneFullMass final : public FullMassKernel {
 
   Balance project() override {
     sum_momentum_and_mass();
-    for (double* field : {mass_[0], right_side_[0], right_side_[1]}) lattice_.join_images(field);
-    solve_.matrix().complete();
+    bands_.each(3, [&](int field) {
+      lattice_.join_images(field == 0 ? mass_[0] : right_side_[static_cast<std::size_t>(field) - 1]);
+    });
+    solve_.matrix().complete(bands_);
     solve_.fix_nodes();
-    if (!has_projected_) begin_with_quotient(velocity_);
-    has_projected_ = true;
-    each_value([&](std::size_t c, int i) {  // it drifts by as much as in the step before
-      const Lanes drifted = load(velocity_[c] + i) + load(drifted_[c] + i);
-      store(drifted_[c] + i, load(velocity_[c] + i));
-      store(velocity_[c] + i, drifted);
+    const Balance balance = solve(velocity_, nothing_, velocities_, {{0, 0}});
+    energy_ = bands_.sum([&](int i, Lanes(&sum)[2]) {
+      for (std::size_t c : {0, 1}) {
+        const Lanes v = load(velocity_[c] + i);
+        store(start_[c] + i, v);
+        sum[c] += load(mass_[0] + i) * v * v;
+      }
     });
-    const Balance balance = solve_(mass_[0], right_side_, velocity_);
-    each_value([&](std::size_t c, int i) {
-      store(drifted_[c] + i, load(velocity_[c] + i) - load(drifted_[c] + i));
-    });
-    start_ = velocity_;
     return balance;
   }
 
-  Balance accelerate(const double b[2]) override {
+  Balance kick(Kick which, const double b[2], double dt) override {
     sum_forces();
-    for (std::size_t c : {0, 1}) {
-      double* const f = right_side_[c];
-      lattice_.join_images(f);
-      lattice_.each_vector([&](int i) { store(f + i, load(f + i) + b[c] * load(mass_[0] + i)); });
-    }
-    if (!has_accelerated_) begin_with_quotient(acceleration_);
-    has_accelerated_ = true;
-    return solve_(mass_[0], right_side_, acceleration_);
-  }
-
-  void advance_from_start(double dt) override {
-    for (std::size_t c : {0, 1}) {
-      lattice_.each_vector(
-          [&](int i) { store(velocity_[c] + i, load(start_[c] + i) + dt * load(acceleration_[c] + i)); });
-      lattice_.fill_margin(velocity_[c]);
-    }
+    bands_.each(2, [&](int c) { lattice_.join_images(right_side_[static_cast<std::size_t>(c)]); });
+    bands_.each_vector([&](int i) {
+      for (std::size_t c : {0, 1}) {
+        double* const f = right_side_[c] + i;
+        store(f, load(f) + b[c] * load(mass_[0] + i));
+      }
+    });
+    // dt a is added to the velocity, which is known to 1e-14 by its own solve. The whole kick differs little
+    // from that to the middle, and by nearly as much as in the step before.
+    const Both beside{{energy_.of[0] / (dt * dt), energy_.of[1] / (dt * dt)}};
+    const bool whole = which == Kick::Whole;
+    LatticeVector& a = whole ? acceleration_ : middle_acceleration_;
+    const Balance balance = whole ? solve(a, middle_acceleration_, changes_, beside)
+                                  : solve(a, nothing_, middle_accelerations_, beside);
+    bands_.each_row([&](int row) {
+      lattice_.each_vector(row, [&](int i) {
+        for (std::size_t c : {0, 1}) store(velocity_[c] + i, load(start_[c] + i) + dt * load(a[c] + i));
+      });
+      for (std::size_t c : {0, 1}) lattice_.fill_margin(velocity_[c], row);
+    });
+    return balance;
   }
 
   void take() override {
-    each_block([&](const Block& block) {
-      const Components<CellField<Basis>> v(basis_, block, velocity());
-      const Components<CellGradient<Basis>> grad_v(basis_, block, velocity());
-      each_slot(block, [&](int k, Slot& p, const Weights& n_p) {
-        for (int c : {0, 1}) p.v[c] = v[c].at(n_p);
-        if (!setup_.has_pressure) return;
-        Affine& l = cells_->affines(block)[static_cast<std::size_t>(k)];
-        for (int c : {0, 1}) {
-          const auto [d_0, d_1] = grad_v[c].at(n_p);
-          l.c[c][0] = d_0 * cell_size(0);
-          l.c[c][1] = d_1 * cell_size(1);
-        }
+    bands_.each_of_cells([&](int, Rows rows) {
+      each_block(rows, [&](const Block& block) {
+        const Components<CellField<Basis>> v(basis_, block, velocity());
+        const Components<CellGradient<Basis>> grad_v(basis_, block, velocity());
+        each_slot(block, [&](int k, Slot& p, const Weights& n_p) {
+          for (int c : {0, 1}) p.v[c] = v[c].at(n_p);
+          if (!setup_.has_pressure) return;
+          Affine& l = cells_->affines(block)[static_cast<std::size_t>(k)];
+          for (int c : {0, 1}) {
+            const auto [d_0, d_1] = grad_v[c].at(n_p);
+            l.c[c][0] = d_0 * cell_size(0);
+            l.c[c][1] = d_1 * cell_size(1);
+          }
+        });
       });
     });
   }
 
   Motion drift(double dt) override {
+    time_ += dt;
     const double cells_a_step[2] = {dt * basis_.inverse_h[0], dt * basis_.inverse_h[1]};
-    Motion motion;
-    Lanes energy = 0, least_volume = 0;
-    each_block([&](const Block& block) {
-      Lanes lowest = 0, highest = 0;
-      for (int k = 0; Slot & p : cells_->slots(block)) {
-        if (setup_.has_pressure) {
-          strain_straight(cells_->affines(block)[static_cast<std::size_t>(k++)], p, cells_a_step);
-          least_volume = least(least_volume, p.volume);
+    bands_.each_of_cells([&](int band, Rows rows) {
+      Share& share = shares_[static_cast<std::size_t>(band)];
+      Lanes energy = 0, least_volume = 0;
+      each_block(rows, [&](const Block& block) {
+        Lanes lowest = 0, highest = 0;
+        for (int k = 0; Slot & p : cells_->slots(block)) {
+          if (setup_.has_pressure) {
+            strain_straight(cells_->affines(block)[static_cast<std::size_t>(k++)], p, cells_a_step);
+            least_volume = least(least_volume, p.volume);
+          }
+          for (int c : {0, 1}) {
+            p.s[c] = select(p.mass > 0, p.s[c] + cells_a_step[c] * p.v[c], p.s[c]);
+            lowest = least(lowest, p.s[c]);
+            highest = largest(highest, p.s[c]);
+            energy += p.v[c] * p.v[c];
+          }
         }
-        for (int c : {0, 1}) {
-          p.s[c] = select(p.mass > 0, p.s[c] + cells_a_step[c] * p.v[c], p.s[c]);
-          lowest = least(lowest, p.s[c]);
-          highest = largest(highest, p.s[c]);
-          energy += p.v[c] * p.v[c];
-        }
-      }
-      if (((lowest < 0) | (highest >= 1)).any()) cells_->list_movers(block, movers_);
+        if (((lowest < 0) | (highest >= 1)).any()) cells_->list_movers(block, share.movers);
+      });
+      share.energy = sum(energy);
+      share.dense = !(least_volume < 0).any();
     });
-    motion.energy = sum(energy);
-    motion.dense = !(least_volume < 0).any();
-    motion.inside = cells_->rehouse(movers_);
-    movers_.clear();
+    Motion motion;
+    for (Share& share : shares_) {
+      motion.energy += share.energy;
+      motion.dense &= share.dense;
+      motion.inside &= cells_->rehouse(share.movers);
+      share.movers.clear();
+    }
     return motion;
   }
 
   [[nodiscard]] double largest_strain_rate() override {
-    Lanes most = 0;
-    each_block([&](const Block& block) {
-      const Components<CellGradient<Basis>> grad_v(basis_, block, velocity());
-      each_slot(block, [&](int, const Slot& p, const Weights& n_p) {
-        const auto [d_00, d_01] = grad_v[0].at(n_p);
-        const auto [d_10, d_11] = grad_v[1].at(n_p);
-        const Lanes shear = d_01 + d_10;
-        const Lanes squared = 2 * (d_00 * d_00 + d_11 * d_11) + shear * shear;
-        most = largest(most, select(p.mass > 0, squared, 0));
+    bands_.each_of_cells([&](int band, Rows rows) {
+      Lanes most = 0;
+      each_block(rows, [&](const Block& block) {
+        const Components<CellGradient<Basis>> grad_v(basis_, block, velocity());
+        each_slot(block, [&](int, const Slot& p, const Weights& n_p) {
+          const auto [d_00, d_01] = grad_v[0].at(n_p);
+          const auto [d_10, d_11] = grad_v[1].at(n_p);
+          const Lanes shear = d_01 + d_10;
+          const Lanes squared = 2 * (d_00 * d_00 + d_11 * d_11) + shear * shear;
+          most = largest(most, select(p.mass > 0, squared, 0));
+        });
       });
+      shares_[static_cast<std::size_t>(band)].strain_rate_squared = largest(most);
     });
-    double rate = 0;
-    for (int lane = 0; lane < width; ++lane) rate = std::max(rate, most[lane]);
-    return std::sqrt(rate);
+    double squared = 0;
+    for (const Share& share : shares_) squared = std::max(squared, share.strain_rate_squared);
+    return std::sqrt(squared);
   }
+
+  /// Iterations of all solves so far.
+  [[nodiscard]] long iterations() const { return solve_.iterations(); }
 
  private:
   using Basis = PlaneBasis<degree>;
   using Weights = TensorWeights<Basis>;
 
+  /// What the particles of a band add up to.
+  struct alignas(64) Share {
+    double energy = 0, strain_rate_squared = 0;
+    bool dense = true;
+    std::vector<Address> movers;
+  };
+
   void sum_momentum_and_mass() {
-    mass_.clear();
-    right_side_.clear();
-    solve_.matrix().clear();
-    NodeSums<Basis, MomentumSums<Basis, true>> node_sums(basis_, {mass_[0], right_side_[0], right_side_[1]});
-    each_block([&](const Block& block) {
-      MomentumSums<Basis, true> sums;
-      CellMass<degree> mass;
-      each_slot(block, [&](int, const Slot& p, const Weights& n_p) {
-        sums.add(n_p, p.mass, p.v);
-        mass.add(p.mass, n_p);
-      });
-      node_sums.add(block.first_node, sums);
-      if (block.size > 0) solve_.matrix().add(block.first_node, mass);
+    bands_.each_of_cells([&](int band, Rows cells) {
+      const Rows rows = nodes_of(band, cells);
+      mass_.clear(lattice_, rows);
+      right_side_.clear(lattice_, rows);
+      solve_.matrix().clear(rows);
     });
-    node_sums.finish();
+    bands_.each_of_cells_apart([&](Rows rows) {
+      NodeSums<Basis, MomentumSums<Basis, true>> node_sums(basis_,
+                                                           {mass_[0], right_side_[0], right_side_[1]});
+      each_block(rows, [&](const Block& block) {
+        MomentumSums<Basis, true> sums;
+        CellMass<degree> mass;
+        each_slot(block, [&](int, const Slot& p, const Weights& n_p) {
+          sums.add(n_p, p.mass, p.v);
+          mass.add(p.mass, n_p);
+        });
+        node_sums.add(block.first_node, sums);
+        if (block.size > 0) solve_.matrix().add(block.first_node, mass);
+      });
+      node_sums.finish();
+    });
   }
 
   /// -sum_p V_p sigma_p grad N_ip, stress and all as in LaneKernel.
   void sum_forces() {
-    right_side_.clear();
+    bands_.each_of_cells([&](int band, Rows cells) { right_side_.clear(lattice_, nodes_of(band, cells)); });
     with_fluid([&]<class Law, class Pressure>(const Law& law, const Pressure& pressure) {
-      NodeSums<Basis, DivergenceSums<Basis>> node_sums(basis_, {right_side_[0], right_side_[1]});
-      each_block([&](const Block& block) {
-        const Components<CellGradient<Basis>> grad_v(basis_, block, velocity());
-        DivergenceSums<Basis> sums;
-        each_slot(block, [&](int k, const Slot& p, const Weights& n_p) {
-          const auto [d_00, d_01] = grad_v[0].at(n_p);
-          const auto [d_10, d_11] = grad_v[1].at(n_p);
-          const Lanes density = Pressure::varies ? p.mass / select(p.mass > 0, p.volume, 1) : 0;
-          const Stress stress = stress_of(Strained{d_00, d_11, d_01 + d_10, density}, law, pressure, 1);
-          cells_->stresses(block)[static_cast<std::size_t>(k)] = stress;
-          sums.add(n_p, (0 - p.volume) * stress);
+      bands_.each_of_cells_apart([&](Rows rows) {
+        NodeSums<Basis, DivergenceSums<Basis>> node_sums(basis_, {right_side_[0], right_side_[1]});
+        each_block(rows, [&](const Block& block) {
+          const Components<CellGradient<Basis>> grad_v(basis_, block, velocity());
+          DivergenceSums<Basis> sums;
+          each_slot(block, [&](int k, const Slot& p, const Weights& n_p) {
+            const auto [d_00, d_01] = grad_v[0].at(n_p);
+            const auto [d_10, d_11] = grad_v[1].at(n_p);
+            const Lanes density = Pressure::varies ? p.mass / select(p.mass > 0, p.volume, 1) : 0;
+            const Stress stress = stress_of(Strained{d_00, d_11, d_01 + d_10, density}, law, pressure, 1);
+            cells_->stresses(block)[static_cast<std::size_t>(k)] = stress;
+            sums.add(n_p, (0 - p.volume) * stress);
+          });
+          node_sums.add(block.first_node, sums);
         });
-        node_sums.add(block.first_node, sums);
+        node_sums.finish();
       });
-      node_sums.finish();
     });
+  }
+
+  /// The rows of nodes that begin with a band's cells: with the last ones up to the end of the margin.
+  [[nodiscard]] Rows nodes_of(int band, Rows cells) const {
+    return {cells.begin, band + 1 < bands_.count() ? cells.end : cells.end + degree + 1};
   }
 
   /// L turns into L (I + dt L)^-1, the volume grows by det(I + dt L).
@@ -204,26 +250,20 @@ class LaneFullMass final : public FullMassKernel {
     p.volume = p.volume * ratio;
   }
 
-  /// At the first time a solution is sought from b_i/m_i on, later from what the last ones say.
-  void begin_with_quotient(LatticeVector& x) {
-    for (std::size_t c : {0, 1})
-      lattice_.each_vector([&](int i) {
-        const Lanes m = load(mass_[0] + i);
-        store(x[c] + i, select(m > 0, load(right_side_[c] + i) / select(m > 0, m, 1), 0));
-      });
+  /// Solves for x, from where a forecast of its difference to `base` says that it is.
+  Balance solve(LatticeVector& x, const LatticeVector& base, Forecast& forecast, const Both& beside) {
+    forecast.read(bands_, time_, base, x);
+    const Balance balance = solve_(mass_[0], right_side_, x, beside);
+    forecast.keep(bands_, time_, base, x);
+    return balance;
   }
 
-  /// f(component, i) for the vectors of nodes.
-  template <class F>
-  void each_value(F&& f) const {
-    for (std::size_t c : {0, 1}) lattice_.each_vector([&](int i) { f(c, i); });
-  }
   [[nodiscard]] double cell_size(int axis) const { return 1 / basis_.inverse_h[axis]; }
   [[nodiscard]] std::array<double*, 2> velocity() { return {velocity_[0], velocity_[1]}; }
 
   template <class F>
-  [[gnu::flatten]] void each_block(F&& f) {
-    for (const Block& block : cells_->blocks({0, setup_.axis[1].cells})) f(block);
+  [[gnu::always_inline]] void each_block(Rows rows, F&& f) {
+    for (const Block& block : cells_->blocks(rows)) f(block);
   }
   /// f(number, slot, weights)
   template <class F>
@@ -245,12 +285,15 @@ class LaneFullMass final : public FullMassKernel {
   Lattice lattice_;
   Basis basis_;
   KernelSetup setup_;
+  Bands bands_;
+  std::vector<Share> shares_;  // one a band
   std::optional<Cells> cells_;
-  std::vector<Address> movers_;
   MassSolve<degree> solve_;
   LatticeFields<1> mass_;  // sum_p N_ip m_p [kg/m]
-  LatticeVector right_side_, velocity_, start_, drifted_, acceleration_;
-  bool has_projected_ = false, has_accelerated_ = false;
+  LatticeVector right_side_, velocity_, start_, middle_acceleration_, acceleration_, nothing_;
+  Forecast velocities_, middle_accelerations_, changes_;  // changes from one acceleration to the other
+  Both energy_{{0, 0}};                                   // sum_i m_i v_i^2 at the start [kg m/s2]
+  double time_ = 0;                                       // of particles, since the first drift [s]
 };
 
 }  // namespace mpm::MPM_ISA

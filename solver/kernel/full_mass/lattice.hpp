@@ -20,8 +20,9 @@ class Lattice {
       periodic_[a] = axis[a].periodic;
       count_[a] = axis[a].cells + (axis[a].periodic ? 0 : degree);
     }
-    // Rows that lie a power of two apart would compete for the same lines of the cache.
-    stride_ = whole_vectors(cells_[0] + 2 * degree);
+    // Whole vectors of a row reach no margin of the next. Rows that lie a power of two apart would compete for
+    // the same lines of the cache.
+    stride_ = whole_vectors(whole_vectors(count_[0]) + 2 * degree);
     if (stride_ % 64 == 0) stride_ += std::max(width, 8);
   }
 
@@ -38,11 +39,10 @@ class Lattice {
     return margin() + static_cast<std::size_t>((cells_[1] + 2 * degree_ + 1) * stride_ + 4 * width);
   }
 
-  /// f(i) for the vectors i to i + width - 1 of nodes, row by row. The last of a row reaches into the margin.
+  /// f(i) for the vectors i to i + width - 1 of a row of nodes. The last one reaches into the margin.
   template <class F>
-  [[gnu::always_inline]] void each_vector(F&& f) const {
-    for (int row = 0; row < count_[1]; ++row)
-      for (int i = row * stride_; i < row * stride_ + count_[0]; i += width) f(i);
+  [[gnu::always_inline]] void each_vector(int row, F&& f) const {
+    for (int i = row * stride_; i < row * stride_ + count_[0]; i += width) f(i);
   }
 
   /// Moves what stands at the images of periodic nodes beyond the last cells to the nodes themselves.
@@ -60,35 +60,26 @@ class Lattice {
         for (int i = cells_[0]; i < end; ++i) move(row * stride_ + i, row * stride_ + i % cells_[0]);
   }
 
-  /// Sets the margin.
-  void fill_margin(double* field) const {
-    for (int row = 0; row < count_[1]; ++row) {
-      double* const at = field + row * stride_;
-      for (int d = 1; d <= degree_; ++d) {
-        at[-d] = periodic_[0] ? at[before(d, 0)] : 0;
-        at[count_[0] - 1 + d] = periodic_[0] ? at[(d - 1) % cells_[0]] : 0;
-      }
-    }
+  /// Sets the margin: what of it are images of a row's nodes, or lies beside it.
+  void fill_margin(double* field, int row) const {
+    double* const at = field + row * stride_;
     for (int d = 1; d <= degree_; ++d) {
-      copy_row(field, before(d, 1), -d);
-      copy_row(field, (d - 1) % cells_[1], count_[1] - 1 + d);
+      at[-d] = periodic_[0] ? at[before(d)] : 0;
+      at[count_[0] - 1 + d] = periodic_[0] ? at[(d - 1) % cells_[0]] : 0;
     }
+    if (!periodic_[1]) return;  // zero from the beginning
+    for (int image = row - cells_[1]; image >= -degree_; image -= cells_[1]) copy_row(field, row, image);
+    for (int image = row + cells_[1]; image < cells_[1] + degree_; image += cells_[1])
+      copy_row(field, row, image);
   }
 
   static int whole_vectors(int n) { return (n + width - 1) / width * width; }
 
  private:
-  /// The node of which the d-th before the first is an image.
-  [[nodiscard]] int before(int d, std::size_t axis) const {
-    return (cells_[axis] - d % cells_[axis]) % cells_[axis];
-  }
+  /// The node along a row of which the d-th before the first is an image.
+  [[nodiscard]] int before(int d) const { return (cells_[0] - d % cells_[0]) % cells_[0]; }
   void copy_row(double* field, int from, int to) const {
-    double* const begin = field + to * stride_ - degree_;
-    const int length = count_[0] + 2 * degree_;
-    if (periodic_[1])
-      std::copy_n(field + from * stride_ - degree_, length, begin);
-    else
-      std::fill_n(begin, length, 0.0);
+    std::copy_n(field + from * stride_ - degree_, count_[0] + 2 * degree_, field + to * stride_ - degree_);
   }
 
   int degree_, stride_;
@@ -116,7 +107,11 @@ class LatticeFields {
   }
   /// From a field to the next.
   [[nodiscard]] std::size_t pitch() const { return pitch_; }
-  void clear() { std::fill(memory_.begin(), memory_.end(), Lanes(0)); }
+  /// Rows of all fields, from the first node of one to that of another.
+  void clear(const Lattice& lattice, Rows rows) {
+    for (std::size_t f = 0; f < fields; ++f)
+      std::fill((*this)[f] + rows.begin * lattice.stride(), (*this)[f] + rows.end * lattice.stride(), 0.0);
+  }
 
  private:
   std::size_t margin_, pitch_;
@@ -125,5 +120,10 @@ class LatticeFields {
 
 /// Both components of a nodal field.
 using LatticeVector = LatticeFields<2>;
+
+/// One number a component.
+struct Both {
+  double of[2];
+};
 
 }  // namespace mpm::MPM_ISA

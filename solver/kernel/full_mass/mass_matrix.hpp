@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "solver/kernel/cell_weights.hpp"
-#include "solver/kernel/full_mass/lattice.hpp"
+#include "solver/kernel/full_mass/bands.hpp"
 
 namespace mpm::MPM_ISA {
 
@@ -59,18 +59,19 @@ class MassMatrix {
                  CellMass<degree>::pair(l, m) * CellMass<degree>::pairs + CellMass<degree>::pair(k, n)});
   }
 
-  void clear() { entries_.clear(); }
+  void clear(Rows rows) { entries_.clear(lattice_, rows); }
   /// Adds what the cells of a block have, whose first one begins at a node.
   void add(int first_node, const CellMass<degree>& mass) {
     double* const begin = entries_[0] + first_node;
     for (const Share& share : shares_) store(begin + share.at, load(begin + share.at) + mass[share.sum]);
   }
   /// When all have been added.
-  void complete() {
-    for (std::size_t d = 0; d < distances; ++d) {
-      lattice_.join_images(entries_[d]);
-      lattice_.fill_margin(entries_[d]);
-    }
+  void complete(const Bands& bands) {
+    bands.each(static_cast<int>(distances), [&](int d) {
+      double* const entries = entries_[static_cast<std::size_t>(d)];
+      lattice_.join_images(entries);
+      for (int row = 0; row < lattice_.count(1); ++row) lattice_.fill_margin(entries, row);
+    });
   }
 
   /// M_ii of all nodes.

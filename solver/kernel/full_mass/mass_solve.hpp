@@ -12,11 +12,11 @@ namespace mpm::MPM_ISA {
 template <int degree>
 class MassSolve {
  public:
-  MassSolve(const Lattice& lattice, const FullMassSetup& setup)
+  MassSolve(const Lattice& lattice, const Bands& bands, const FullMassSetup& setup)
       : lattice_(lattice),
+        bands_(bands),
         matrix_(lattice),
         inverse_(lattice, setup.mass),
-        uniform_{setup.mass[0].diagonal, setup.mass[1].diagonal},
         negligible_mass_(setup.negligible_mass),
         has_walls_(!setup.wall_nodes.empty()),
         node_(lattice),
@@ -25,47 +25,53 @@ class MassSolve {
         z_(lattice),
         direction_(lattice),
         product_(lattice) {
+    for (int j = 0; j < lattice.count(1); ++j)
+      for (int k = 0; k < lattice.count(0); ++k)
+        node_[uniform][j * lattice.stride() + k] = setup.mass[0].diagonal[static_cast<std::size_t>(k)] *
+                                                   setup.mass[1].diagonal[static_cast<std::size_t>(j)];
     for (const int wall : setup.wall_nodes) {
       const int count = lattice.count(0);
-      wall_nodes_.push_back(wall / count * lattice.stride() + wall % count);
+      node_[uniform][wall / count * lattice.stride() + wall % count] = 0;
     }
   }
 
   MassMatrix<degree>& matrix() { return matrix_; }
   /// Values on wall nodes; zero elsewhere.
   double* prescribed(std::size_t c) { return prescribed_[c]; }
+  /// Of all solves.
+  [[nodiscard]] long iterations() const { return iterations_; }
 
   /// When the matrix is complete: functions that hold next to no mass are left out, their values are zero.
   void fix_nodes() {
     const double* const m = matrix_.diagonal();
-    double largest = 0;
-    each_node([&](int i) { largest = std::max(largest, m[i]); });
-    each_node([&](int i) { node_[free][i] = m[i] > negligible_mass_ * largest ? 1 : 0; });
-    for (const int i : wall_nodes_) node_[free][i] = 0;
-    for (int j = 0; j < lattice_.count(1); ++j)
-      for (int k = 0; k < lattice_.count(0); ++k) {
-        const int i = j * lattice_.stride() + k;
-        const double t = uniform_[0][static_cast<std::size_t>(k)] * uniform_[1][static_cast<std::size_t>(j)];
-        node_[scale][i] = node_[free][i] > 0 ? std::sqrt(t / m[i]) : 0;
-      }
+    const double negligible = negligible_mass_ * largest_of(m);
+    bands_.each_vector([&](int i) {
+      const Lanes m_ii = load(m + i), t_ii = load(node_[uniform] + i);
+      const Mask is_free = (t_ii > 0) & (m_ii > negligible);
+      store(node_[free] + i, select(is_free, 1, 0));
+      store(node_[scale] + i, select(is_free, sqrt(t_ii / select(is_free, m_ii, 1)), 0));
+    });
   }
 
   /// x <- M^-1 b, from the value that x has; b stays. Without walls the total of b is kept to round-off.
-  /// `mass` is sum_p N_ip m_p.
-  Balance operator()(const double* mass, LatticeVector& b, LatticeVector& x) {
-    Balance balance{{sum_of(b[0]), sum_of(b[1])}, {}};
-    for (std::size_t c : {0, 1})
-      each_vector(
-          [&](int i) { store(x[c] + i, select(is_free(i), load(x[c] + i), load(prescribed_[c] + i))); });
-    iterate(b, x);
-    if (!has_walls_) keep_total(balance, mass, x);
-    for (std::size_t c : {0, 1}) {
-      lattice_.fill_margin(x[c]);
-      Lanes sum = 0;
-      each_vector([&](int i) { sum += load(mass + i) * load(x[c] + i); });
-      balance.found[c] = mpm::MPM_ISA::sum(sum);
-    }
-    return balance;
+  /// `mass` is sum_p N_ip m_p. What a solution is added to need not be known better than that is: the
+  /// residual r ends with r P^-1 r below 1e-28 (b P^-1 b + beside), `beside` the square y M y of that other
+  /// field, or 0.
+  Balance operator()(const double* mass, const LatticeVector& b, LatticeVector& x, const Both& beside) {
+    // Beyond the last node of a row b is zero.
+    const Both asked = bands_.sum([&](int i, Lanes(&sum)[2]) {
+      for (std::size_t c : {0, 1}) {
+        sum[c] += load(b[c] + i);
+        store(x[c] + i, select(is_free(i), load(x[c] + i), load(prescribed_[c] + i)));
+      }
+    });
+    iterate(b, x, beside);
+    if (!has_walls_) keep_total(asked, mass, x);
+    fill_margins(x);
+    const Both found = bands_.sum([&](int i, Lanes(&sum)[2]) {
+      for (std::size_t c : {0, 1}) sum[c] += load(mass + i) * load(x[c] + i);
+    });
+    return {{asked.of[0], asked.of[1]}, {found.of[0], found.of[1]}};
   }
 
  private:
@@ -73,46 +79,44 @@ class MassSolve {
   static constexpr double tolerance = 1e-14;
   static constexpr int most_iterations = 200;
 
-  /// One number a component.
-  struct Both {
-    double of[2];
-    [[nodiscard]] bool exceeds(const Both& other) const { return of[0] > other.of[0] || of[1] > other.of[1]; }
-    /// A component that is solved stays as it is.
-    [[nodiscard]] Both over(const Both& other) const {
-      const auto quotient = [](double a, double b) { return b > 0 ? a / b : 0; };
-      return {{quotient(of[0], other.of[0]), quotient(of[1], other.of[1])}};
-    }
-  };
+  static bool exceeds(const Both& a, const Both& b) { return a.of[0] > b.of[0] || a.of[1] > b.of[1]; }
+  /// A component that is solved stays as it is.
+  static Both over(const Both& a, const Both& b) {
+    const auto quotient = [](double p, double q) { return q > 0 ? p / q : 0; };
+    return {{quotient(a.of[0], b.of[0]), quotient(a.of[1], b.of[1])}};
+  }
 
-  void iterate(LatticeVector& b, LatticeVector& x) {
-    if (has_walls_)
-      subtract_product(b, prescribed_);
-    else
-      for (std::size_t c : {0, 1})
-        each_vector([&](int i) { store(residual_[c] + i, load(node_[free] + i) * load(b[c] + i)); });
-    Both enough = precondition();
-    for (double& of : enough.of) of *= tolerance * tolerance;
-    subtract_product(b, x);
-    Both size = precondition();
-    for (std::size_t c : {0, 1}) each_vector([&](int i) { store(direction_[c] + i, load(z_[c] + i)); });
-    for (int iteration = 0; iteration < most_iterations && size.exceeds(enough); ++iteration) {
-      const Both step = size.over(multiply_direction());
-      for (std::size_t c : {0, 1})
-        each_vector([&](int i) {
-          store(x[c] + i, load(x[c] + i) + step.of[c] * load(direction_[c] + i));
-          store(residual_[c] + i, load(residual_[c] + i) - step.of[c] * load(product_[c] + i));
-        });
-      const Both next = precondition(), turn = next.over(size);
-      for (std::size_t c : {0, 1})
-        each_vector(
-            [&](int i) { store(direction_[c] + i, load(z_[c] + i) + turn.of[c] * load(direction_[c] + i)); });
+  void iterate(const LatticeVector& b, LatticeVector& x, const Both& beside) {
+    Both enough = precondition([&](int row) { begin_residual(row, b); });
+    for (int c : {0, 1}) enough.of[c] = tolerance * tolerance * (enough.of[c] + beside.of[c]);
+    fill_margins(x);
+    Both size = precondition([&](int row) { subtract_product(row, b, x); });
+    turn({{0, 0}});
+    for (int iteration = 0; iteration < most_iterations && exceeds(size, enough); ++iteration) {
+      const Both step = over(size, multiply_direction());
+      const Both next = precondition([&](int row) { advance(row, step, x); });
+      turn(over(next, size));
       size = next;
+      ++iterations_;
     }
   }
 
-  /// r = b - M v on free nodes.
-  void subtract_product(LatticeVector& b, LatticeVector& v) {
-    each_product(v, [&](int i, const Lanes(&product)[2]) {
+  // Each of these is for one row of nodes, or for all.
+
+  /// r = b - M x of x = 0 on free nodes.
+  void begin_residual(int row, const LatticeVector& b) {
+    if (has_walls_) return subtract_product(row, b, prescribed_);
+    lattice_.each_vector(row, [&](int i) {
+      for (std::size_t c : {0, 1}) store(residual_[c] + i, load(node_[free] + i) * load(b[c] + i));
+    });
+  }
+
+  /// r = b - M x on free nodes.
+  void subtract_product(int row, const LatticeVector& b, const LatticeVector& x) {
+    const double* const of[2] = {x[0], x[1]};
+    lattice_.each_vector(row, [&](int i) {
+      Lanes product[2];
+      matrix_.row(i, of, product);
       for (std::size_t c : {0, 1})
         store(residual_[c] + i, load(node_[free] + i) * (load(b[c] + i) - product[c]));
     });
@@ -120,80 +124,100 @@ class MassSolve {
 
   /// q = M d on free nodes; returns d q.
   Both multiply_direction() {
-    Lanes sum[2] = {0, 0};
-    each_product(direction_, [&](int i, const Lanes(&product)[2]) {
+    const double* const d[2] = {direction_[0], direction_[1]};
+    return bands_.sum([&](int i, Lanes(&sum)[2]) {
+      Lanes product[2];
+      matrix_.row(i, d, product);
       for (std::size_t c : {0, 1}) {
         const Lanes q = load(node_[free] + i) * product[c];
         store(product_[c] + i, q);
-        sum[c] += q * load(direction_[c] + i);
+        sum[c] += q * load(d[c] + i);
       }
     });
-    return {{mpm::MPM_ISA::sum(sum[0]), mpm::MPM_ISA::sum(sum[1])}};
   }
 
-  /// z = P^-1 r; returns r z.
-  Both precondition() {
-    const double* const r[2] = {residual_[0], residual_[1]};
-    double* const z[2] = {z_[0], z_[1]};
-    inverse_.apply(node_[scale], r, z);
-    Lanes sum[2] = {0, 0};
-    for (std::size_t c : {0, 1}) each_vector([&](int i) { sum[c] += load(r[c] + i) * load(z[c] + i); });
-    return {{mpm::MPM_ISA::sum(sum[0]), mpm::MPM_ISA::sum(sum[1])}};
+  /// x += step d, r -= step q.
+  void advance(int row, const Both& step, LatticeVector& x) {
+    lattice_.each_vector(row, [&](int i) {
+      for (std::size_t c : {0, 1}) {
+        store(x[c] + i, load(x[c] + i) + step.of[c] * load(direction_[c] + i));
+        store(residual_[c] + i, load(residual_[c] + i) - step.of[c] * load(product_[c] + i));
+      }
+    });
   }
 
-  /// f(i, M v there).
-  template <class F>
-  [[gnu::flatten]] void each_product(LatticeVector& v, F&& f) {
-    for (std::size_t c : {0, 1}) lattice_.fill_margin(v[c]);
-    const double* const of[2] = {v[0], v[1]};
-    each_vector([&](int i) {
-      Lanes product[2];
-      matrix_.row(i, of, product);
-      f(i, product);
+  /// set_residual(row), then z = P^-1 r; returns r z.
+  template <class SetResidual>
+  Both precondition(SetResidual&& set_residual) {
+    bands_.each_row([&](int row) {
+      set_residual(row);
+      inverse_.sum_along(row, node_[scale], residual_);
+    });
+    return bands_.sum_of_rows([&](int row, Lanes(&sum)[2]) {
+      inverse_.sum_across(row, node_[scale], [&](int i, const Lanes(&z)[2]) {
+        for (std::size_t c : {0, 1}) {
+          store(z_[c] + i, z[c]);
+          sum[c] += load(residual_[c] + i) * z[c];
+        }
+      });
+    });
+  }
+
+  /// d = z + by d, with its margin.
+  void turn(const Both& by) {
+    bands_.each_row([&](int row) {
+      lattice_.each_vector(row, [&](int i) {
+        for (std::size_t c : {0, 1})
+          store(direction_[c] + i, load(z_[c] + i) + by.of[c] * load(direction_[c] + i));
+      });
+      for (std::size_t c : {0, 1}) lattice_.fill_margin(direction_[c], row);
+    });
+  }
+
+  void fill_margins(LatticeVector& x) const {
+    bands_.each_row([&](int row) {
+      for (std::size_t c : {0, 1}) lattice_.fill_margin(x[c], row);
     });
   }
 
   /// Adds the uniform field that makes up for what the iteration left: sum_i (M x)_i = sum_i m_i x_i.
-  void keep_total(const Balance& balance, const double* mass, LatticeVector& x) {
-    Lanes total = 0;
-    each_vector([&](int i) { total += load(node_[free] + i) * load(mass + i); });
-    for (std::size_t c : {0, 1}) {
-      Lanes found = 0;
-      each_vector([&](int i) { found += load(node_[free] + i) * load(mass + i) * load(x[c] + i); });
-      const double missing = (balance.asked[c] - mpm::MPM_ISA::sum(found)) / mpm::MPM_ISA::sum(total);
-      each_vector([&](int i) { store(x[c] + i, load(x[c] + i) + missing * load(node_[free] + i)); });
-    }
+  void keep_total(const Both& asked, const double* mass, LatticeVector& x) {
+    const Both total =
+        bands_.sum([&](int i, Lanes(&sum)[2]) { sum[0] += load(node_[free] + i) * load(mass + i); });
+    const Both found = bands_.sum([&](int i, Lanes(&sum)[2]) {
+      for (std::size_t c : {0, 1}) sum[c] += load(node_[free] + i) * load(mass + i) * load(x[c] + i);
+    });
+    bands_.each_vector([&](int i) {
+      for (std::size_t c : {0, 1}) {
+        const Lanes missing = (asked.of[c] - found.of[c]) / total.of[0];
+        store(x[c] + i, load(x[c] + i) + missing * load(node_[free] + i));
+      }
+    });
   }
 
   [[nodiscard]] Mask is_free(int i) const { return load(node_[free] + i) > 0; }
-  /// Over the nodes themselves: margins may hold anything.
-  [[nodiscard]] double sum_of(const double* field) const {
-    double total = 0;
-    each_node([&](int i) { total += field[i]; });
-    return total;
-  }
-  template <class F>
-  void each_node(F&& f) const {
-    for (int row = 0; row < lattice_.count(1); ++row)
-      for (int i = row * lattice_.stride(); i < row * lattice_.stride() + lattice_.count(0); ++i) f(i);
-  }
-  template <class F>
-  [[gnu::always_inline]] void each_vector(F&& f) const {
-    lattice_.each_vector(f);
+  /// Over the nodes themselves: the margin holds images.
+  [[nodiscard]] double largest_of(const double* field) const {
+    std::vector<double> of_row(static_cast<std::size_t>(lattice_.count(1)));
+    bands_.each_row([&](int row) {
+      const double* const begin = field + row * lattice_.stride();
+      of_row[static_cast<std::size_t>(row)] = *std::max_element(begin, begin + lattice_.count(0));
+    });
+    return *std::max_element(of_row.begin(), of_row.end());
   }
 
   const Lattice& lattice_;
+  const Bands& bands_;
   MassMatrix<degree> matrix_;
   UniformInverse inverse_;
-  std::vector<double> uniform_[2];
   double negligible_mass_;
   bool has_walls_;
-  std::vector<int> wall_nodes_;
-  static constexpr std::size_t free =
-      0;  // one, or zero where the value is prescribed, or without mass, or margin
-  static constexpr std::size_t scale =
-      1;  // (T_ii/M_ii)^1/2 [m/kg^1/2], T that of the uniform fluid; 0 where not free
-  LatticeFields<2> node_;
+  long iterations_ = 0;
+  static constexpr std::size_t free = 0;   // one; zero where prescribed, or without mass, or beyond the nodes
+  static constexpr std::size_t scale = 1;  // (T_ii/M_ii)^1/2 [m/kg^1/2] where free, else zero
+  static constexpr std::size_t uniform =
+      2;  // T_ii, of a fluid of unit density [m2]; zero where not free ever
+  LatticeFields<3> node_;
   LatticeVector prescribed_, residual_, z_, direction_, product_;
 };
 

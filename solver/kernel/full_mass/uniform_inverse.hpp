@@ -2,41 +2,35 @@
 
 #include <vector>
 
+#include "solver/kernel/full_mass/bands.hpp"
 #include "solver/kernel/full_mass/full_mass_kernel.hpp"
-#include "solver/kernel/full_mass/lattice.hpp"
 
 namespace mpm::MPM_ISA {
 
-/// What conjugate gradients for a mass matrix are preconditioned with: the inverse of a uniform fluid's, a
-/// tensor product of one matrix an axis (solver/grid/tensor_mass.hpp), scaled to the true diagonal. The
-/// entries of those fall off by half and more from node to node; a few about the diagonal are an inverse as
-/// good for particles in disorder, and a sum over a few neighbours needs none of its results before.
+/// What conjugate gradients for a mass matrix are preconditioned with: next to the inverse of a uniform
+/// fluid's, a tensor product of one matrix an axis (solver/grid/tensor_mass.hpp), scaled to the true diagonal.
+/// The matrices are LineMass::inverse: a sum over a few neighbours needs none of its results before.
 class UniformInverse {
  public:
   UniformInverse(const Lattice& lattice, const std::array<LineMass, 2>& mass)
       : lattice_(lattice), reach_{mass[0].reach, mass[1].reach}, along_(lattice) {
-    const int stride = lattice.stride();
-    const auto row = static_cast<std::size_t>(stride + width);
-    tap_along_.assign(static_cast<std::size_t>(2 * reach_[0] + 1) * row, 0);
-    for (int d = 0; d <= 2 * reach_[0]; ++d)
-      for (int i = 0; i < mass[0].count; ++i)
-        tap_along_[static_cast<std::size_t>(d) * row + static_cast<std::size_t>(i)] =
-            mass[0].inverse[static_cast<std::size_t>(d * mass[0].count + i)];
-    tap_across_ = mass[1].inverse;
-    for (auto& padded : padded_) padded.assign(row + 2 * static_cast<std::size_t>(reach_[0]) + width, 0);
+    const int count = mass[0].count, vectors = (count + width - 1) / width;
+    taps_along_.assign(static_cast<std::size_t>(vectors * (2 * reach_[0] + 1)), 0);
+    for (int i = 0; i < count; ++i)
+      for (int d = 0; d <= 2 * reach_[0]; ++d)
+        taps_along_[static_cast<std::size_t>(i / width * (2 * reach_[0] + 1) + d)][i % width] =
+            mass[0].inverse[static_cast<std::size_t>(d * count + i)];
+    taps_across_ = mass[1].inverse;
   }
 
-  /// z = S P S r, S the scale of every node.
-  void apply(const double* scale, const double* const r[2], double* const z[2]) {
-    for (int row = 0; row < lattice_.count(1); ++row) sum_along(row * lattice_.stride(), scale, r);
-    for (int row = 0; row < lattice_.count(1); ++row) sum_across(row, scale, z);
-  }
-
- private:
-  void sum_along(int first, const double* scale, const double* const r[2]) {
-    const int count = lattice_.count(0), reach = reach_[0];
+  /// The sum along a row of S r, S the scale of every node.
+  void sum_along(int row, const double* scale, const LatticeVector& r) {
+    const int count = lattice_.count(0), reach = reach_[0], first = row * lattice_.stride();
+    // With images around it; as long as the longest row and reach.
+    thread_local std::vector<double> padded[2];
     for (std::size_t c : {0, 1}) {
-      double* const middle = padded_[c].data() + reach;
+      padded[c].resize(static_cast<std::size_t>(count + 2 * reach + 2 * width));
+      double* const middle = padded[c].data() + reach;
       for (int i = 0; i < count; i += width)
         store(middle + i, load(scale + first + i) * load(r[c] + first + i));
       for (int d = 1; d <= reach; ++d) {
@@ -44,46 +38,46 @@ class UniformInverse {
         middle[count - 1 + d] = lattice_.periodic(0) ? middle[(d - 1) % count] : 0;
       }
     }
-    const auto row = static_cast<std::size_t>(lattice_.stride() + width);
+    const Lanes* tap = taps_along_.data();
     for (int i = 0; i < count; i += width) {
       Lanes sum[2] = {0, 0};
-      const double* tap = tap_along_.data() + i;
-      for (int d = 0; d <= 2 * reach; ++d, tap += row) {
-        const Lanes entry = load(tap);
-        for (std::size_t c : {0, 1}) sum[c] += entry * load(padded_[c].data() + i + d);
-      }
+      for (int d = 0; d <= 2 * reach; ++d, ++tap)
+        for (std::size_t c : {0, 1}) sum[c] += *tap * load(padded[c].data() + i + d);
       for (std::size_t c : {0, 1}) store(along_[c] + first + i, sum[c]);
     }
   }
 
-  void sum_across(int row, const double* scale, double* const z[2]) {
+  /// visit(i, z) with z = S P S r in the vectors of a row of nodes, when the sums along all rows are done.
+  template <class Visit>
+  [[gnu::always_inline]] void sum_across(int row, const double* scale, Visit&& visit) const {
     const int count = lattice_.count(1), reach = reach_[1];
-    terms_.clear();
+    Term terms[2 * most_reach + 1];
+    int used = 0;
     for (int d = -reach; d <= reach; ++d)
       if (lattice_.periodic(1) || (row + d >= 0 && row + d < count))
-        terms_.push_back({tap_across_[static_cast<std::size_t>((d + reach) * count + row)],
-                          (row + d + count) % count * lattice_.stride()});
-    const int first = row * lattice_.stride();
-    for (int i = 0; i < lattice_.count(0); i += width) {
+        terms[used++] = {taps_across_[static_cast<std::size_t>((d + reach) * count + row)],
+                         ((row + d + count) % count - row) * lattice_.stride()};
+    lattice_.each_vector(row, [&](int i) {
       Lanes sum[2] = {0, 0};
-      for (const Term& term : terms_)
-        for (std::size_t c : {0, 1}) sum[c] += term.entry * load(along_[c] + term.row + i);
-      for (std::size_t c : {0, 1}) store(z[c] + first + i, load(scale + first + i) * sum[c]);
-    }
+      for (int k = 0; k < used; ++k)
+        for (std::size_t c : {0, 1}) sum[c] += terms[k].tap * load(along_[c] + i + terms[k].away);
+      const Lanes s = load(scale + i);
+      const Lanes z[2] = {s * sum[0], s * sum[1]};
+      visit(i, z);
+    });
   }
 
-  /// Of a sum across the lanes: an entry, and where its row begins.
+ private:
+  /// Of a sum across the lanes: a row so far away, in the numbering of nodes.
   struct Term {
-    double entry;
-    int row;
+    double tap;
+    int away;
   };
 
   const Lattice& lattice_;
   int reach_[2];
-  std::vector<double> tap_along_;  // a row with a vector more for each distance
-  std::vector<double> tap_across_;
-  std::vector<Term> terms_;        // of one row
-  std::vector<double> padded_[2];  // a row with images around it
+  std::vector<Lanes> taps_along_;   // of the nodes of a vector, one vector after another
+  std::vector<double> taps_across_;
   LatticeVector along_;
 };
 

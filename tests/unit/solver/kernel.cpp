@@ -5,7 +5,6 @@
 #include "solver/kernel/isa.hpp"
 #include "solver/step/solver.hpp"
 #include "solver/step/time_step.hpp"
-#include "tests/bench/plain_loop.hpp"
 #include "tests/catch.hpp"
 
 using namespace mpm;
@@ -266,35 +265,6 @@ TEST_CASE("vector kernels: the number of threads changes no bit") {
       CHECK(one->particles().density == three->particles().density);
       CHECK(one->totals().impulse == three->totals().impulse);
     }
-}
-
-TEST_CASE("the benchmark's plain loop gives the solver's answer") {
-  const auto agree = [](const auto& viscosity, const Rheology& rheology) {
-    Scene scene;
-    scene.size = {0.5e-3, 1e-3};
-    scene.cells = {10, 20};
-    scene.side(Edge::Bottom) = scene.side(Edge::Top) = Side::wall(Vec2::Zero());
-    scene.body_acceleration = [](double) { return Vec2(8e-3, 0); };
-    scene.fluid.rheology = rheology;
-    const auto simulation = make_simulation(scene, {});
-    plain::Loop loop({0.5e-3, 1e-3, 10, 20, 2, 1000, 143, 8e-3, true}, viscosity);
-    for (int k = 0; k < 2000; ++k) {
-      simulation->advance(k * 5e-6, 5e-6);
-      loop.step(5e-6);
-    }
-    const Particles& p = simulation->particles();
-    VectorField velocity, position;
-    for (const auto& q : loop.particles()) {
-      velocity.emplace_back(q.u, q.v);
-      position.emplace_back(q.x, q.y);
-    }
-    // Round-off of 2,000 steps.
-    CHECK(difference(p.velocity, velocity) < 1e-11);
-    CHECK(difference(p.position, position) < 1e-11);
-  };
-  agree(plain::Newtonian{1e-3}, Newtonian{1e-3});
-  agree(plain::Cross{1e-3, 0.5e-3, 1}, Cross<SquareRoot>{1e-3, 0.5e-3, 1, {}});
-  agree(plain::PowerLaw{1e-3, 0.8, 1e-3}, PowerLaw{1e-3, 0.8, 1e-3, 0});
 }
 
 TEST_CASE("a part of a sweep without cells touches no node: it may be another thread's") {

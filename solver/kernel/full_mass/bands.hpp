@@ -1,0 +1,98 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "solver/kernel/full_mass/lattice.hpp"
+#include "solver/kernel/thread_team.hpp"
+
+namespace mpm::MPM_ISA {
+
+/// Bands of rows, which threads visit independently. They depend on the lattice alone, and so does the order
+/// in which their sums are added: results are the same whatever the number of threads.
+class Bands {
+ public:
+  Bands(const Lattice& lattice, int cells, ThreadTeam& team)
+      : lattice_(lattice), cells_(cells), count_(std::clamp(cells / least_rows, 1, most)), team_(team) {}
+
+  [[nodiscard]] int count() const { return count_; }
+
+  /// f(row) for all rows of nodes.
+  template <class F>
+  void each_row(F&& f) const {
+    each_band([&](int band) {
+      for (int row = first(band, rows()); row < first(band + 1, rows()); ++row) f(row);
+    });
+  }
+  /// f(i) for the vectors of nodes.
+  template <class F>
+  void each_vector(F&& f) const {
+    each_row([&](int row) { lattice_.each_vector(row, f); });
+  }
+  /// The sums to which f(i, sums) adds a component.
+  template <class F>
+  [[nodiscard]] Both sum(F&& f) const {
+    return sum_of_rows([&](int row, Lanes(&sums)[2]) { lattice_.each_vector(row, [&](int i) { f(i, sums); }); });
+  }
+  /// The sums to which f(row, sums) adds a component.
+  template <class F>
+  [[nodiscard]] Both sum_of_rows(F&& f) const {
+    std::array<Both, most> of_band;
+    each_band([&](int band) {
+      Lanes sums[2] = {0, 0};
+      for (int row = first(band, rows()); row < first(band + 1, rows()); ++row) f(row, sums);
+      for (int c : {0, 1}) of_band[static_cast<std::size_t>(band)].of[c] = mpm::MPM_ISA::sum(sums[c]);
+    });
+    Both total{{0, 0}};
+    for (int band = 0; band < count_; ++band)
+      for (int c : {0, 1}) total.of[c] += of_band[static_cast<std::size_t>(band)].of[c];
+    return total;
+  }
+
+  /// f(band, rows of cells) for all bands.
+  template <class F>
+  void each_of_cells(F&& f) const {
+    each_band([&](int band) { f(band, Rows{first(band, cells_), first(band + 1, cells_)}); });
+  }
+  /// The same for cells that add to their nodes: no band together with its neighbours, with which it shares
+  /// nodes.
+  template <class F>
+  void each_of_cells_apart(F&& f) const {
+    for (int parity : {0, 1})
+      each((count_ + 1 - parity) / 2, [&](int pair) {
+        const int band = 2 * pair + parity;
+        f(Rows{first(band, cells_), first(band + 1, cells_)});
+      });
+  }
+  /// f(k) for k below a number, on all threads.
+  template <class F>
+  void each(int shares, F&& f) const {
+    team_.run(shares, Flattened<F>{f});
+  }
+
+ private:
+  /// A band adds to degree rows of nodes above it, and its last vector to the first of the row thereafter;
+  /// these must end within the next band.
+  static constexpr int least_rows = 8, most = 32;
+
+  template <class F>
+  struct Flattened {
+    F& f;
+    [[gnu::flatten]] void operator()(int share) const { f(share); }
+  };
+
+  template <class F>
+  void each_band(F&& f) const {
+    each(count_, f);
+  }
+  [[nodiscard]] int rows() const { return lattice_.count(1); }
+  [[nodiscard]] int first(int band, int rows) const {
+    return static_cast<int>(static_cast<long>(rows) * band / count_);
+  }
+
+  const Lattice& lattice_;
+  int cells_, count_;
+  ThreadTeam& team_;
+};
+
+}  // namespace mpm::MPM_ISA
