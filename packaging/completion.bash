@@ -1,7 +1,7 @@
 # Completion of mpm-verify for bash: verbs, options of each verb, studies by name.
 _mpm_verify() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} verb=${COMP_WORDS[1]}
-  local verbs="list explain run compare report validate solve reference schema plan judge collect submit new"
+  local verbs="list explain run compare report validate solve reference schema plan judge collect submit new cavity-tables cavity-profile"
   COMPREPLY=()
   case $before in
     --suite) mapfile -t COMPREPLY < <(compgen -W "quick full deep peers" -- "$word"); return ;;
@@ -21,7 +21,7 @@ _mpm_verify() {
       mapfile -t COMPREPLY < <(compgen -W "$("$1" list --names 2> /dev/null)" -- "$word"; compgen -f -X '!*.toml' -- "$word") ;;
     new) mapfile -t COMPREPLY < <(compgen -W "study solver" -- "$word") ;;
     report | compare | judge | collect) mapfile -t COMPREPLY < <(compgen -d -- "$word") ;;
-    solve | reference) mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word") ;;
+    solve | reference | cavity-profile) mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$word") ;;
   esac
 }
 complete -o filenames -F _mpm_verify mpm-verify

@@ -170,6 +170,20 @@ int dispatch(int argc, char** argv) {
         ->check(CLI::IsMember(mpm::available_isas()));
   }
 
+  CavityTablesOptions tables;
+  auto* tables_app = app.add_subcommand(
+      "cavity-tables", "Computes the tables of lid-driven cavities of other than Newtonian fluids anew");
+  tables_app->add_option("FLUID", tables.fluids, "Names of fluids, as power-law-0.5 (default: all)");
+  tables_app->add_option("--out", tables.out, "Directory of the tables")->required();
+  tables_app->add_flag("--force", tables.force,
+                       "Write into --out even if it holds files that are no results of ours");
+  CavityProfileOptions profile;
+  auto* profile_app = app.add_subcommand(
+      "cavity-profile", "The steady cavity of a scene by the tables' own solvers, on a mesh of its cells");
+  profile_app->add_option("SCENE", profile.scene, "Scene file (TOML)")->required();
+  profile_app->add_option("--out", profile.out, "Directory, which is there, for profile.csv")->required();
+  profile_app->add_flag("--volumes", profile.volumes, "By finite volumes (default: by splines)");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -190,6 +204,11 @@ int dispatch(int argc, char** argv) {
   if (*compare_app) return compare_command(compare);
   if (*validate_app) return validate_command(validate);
   if (*report_app) return report_command(report);
+  if (*tables_app) {
+    tables.command_line = joined(argc, argv);
+    return cavity_tables_command(tables);
+  }
+  if (*profile_app) return cavity_profile_command(profile);
   if (*solve_app) return solve_command(scene);
   return reference_command(scene);
 }

@@ -81,3 +81,11 @@ TEST_CASE("usage errors exit with 2") {
   CHECK(run_program("run no-such-study").code == 2);
   CHECK(run_program("--help").code == 0);
 }
+
+TEST_CASE("cavities that have no table are refused by name") {
+  const ScratchDirectory scratch;
+  const std::string out = " --out " + (scratch.path() / "out").string();
+  check_refused(run_program("cavity-tables honey" + out), "choose some of: newtonian, power-law-0.5");
+  check_refused(run_program("cavity-profile " + scratch.write("scene.toml", good_scene) + out),
+                "must be a lid-driven-cavity");
+}

@@ -59,6 +59,23 @@ struct SceneOptions {
 int solve_command(const SceneOptions& options);
 int reference_command(const SceneOptions& options);
 
+struct CavityTablesOptions {
+  std::filesystem::path out;
+  std::vector<std::string> fluids;  ///< names; empty: all
+  bool force = false;               ///< `out` may hold files that are not ours
+  std::string command_line;
+};
+/// Computes the tables of verification/studies/cavity anew: a file a fluid, and one of extrema.
+int cavity_tables_command(const CavityTablesOptions& options);
+
+struct CavityProfileOptions {
+  std::filesystem::path scene, out;
+  bool volumes = false;  ///< by finite volumes, not by splines
+};
+/// The steady cavity of a scene with one of the tables' fluids, on a mesh of its cells, as somebody else's
+/// solver would hand it in: profile.csv in the directory `out`.
+int cavity_profile_command(const CavityProfileOptions& options);
+
 /// How many simulations or figures are made at the same time: `asked`, or as many as there are cores for 0.
 int job_count(int asked);
 

@@ -9,8 +9,10 @@
 #include <map>
 #include <mutex>
 
+#include "reference/cavity/benchmark_fluids.hpp"
 #include "reference/vortices/cavity_finite_volumes.hpp"
 #include "reference/vortices/smooth_cavity.hpp"
+#include "verification/flows/vortices/cavity_tables.hpp"
 
 namespace verification {
 namespace {
@@ -148,8 +150,17 @@ std::optional<double> LidDrivenCavityFlow::reynolds() const {
 }
 
 std::vector<reference::CavityPoint> LidDrivenCavityFlow::published() const {
-  if (!reynolds() || parameters_.smooth) return {};
-  return reference::marchi_2009(*reynolds());
+  if (parameters_.smooth) return {};
+  if (reynolds()) return reference::marchi_2009(*reynolds());
+  const CavityTable* table = own_table();
+  return table ? table->points : std::vector<reference::CavityPoint>();
+}
+
+const CavityTable* LidDrivenCavityFlow::own_table() const {
+  if (reynolds() || parameters_.smooth || parameters_.curve.yielding()) return nullptr;
+  const auto* fluid =
+      reference::find_cavity_benchmark(parameters_.curve, parameters_.lid_velocity, parameters_.side);
+  return fluid ? cavity_table(fluid->name) : nullptr;
 }
 
 bool LidDrivenCavityFlow::has_exact() const {
@@ -158,7 +169,7 @@ bool LidDrivenCavityFlow::has_exact() const {
 }
 
 std::optional<CostlyReference> LidDrivenCavityFlow::costly_reference(const std::vector<double>&) const {
-  if (!has_exact() || (reynolds() && !parameters_.smooth)) return std::nullopt;
+  if (!has_exact() || !published().empty()) return std::nullopt;
   // Good at any time: the steady state.
   return CostlyReference{
       fmt::format("steady {} cavity, {}", parameters_.smooth ? "regularised" : "lid-driven",
@@ -171,6 +182,10 @@ std::shared_ptr<const ExactField> LidDrivenCavityFlow::exact(const std::vector<d
   if (parameters_.smooth) return smooth_field(*reynolds(), parameters_.side, parameters_.lid_velocity);
   std::vector<reference::CavityPoint> points = published();
   std::string description = "steady state: the tables of Marchi, Suero & Araki 2009, six digits";
+  if (const CavityTable* table = own_table())
+    description = fmt::format(
+        "steady state: the table of this project (mpm-verify cavity-tables), to {:.1e} of the lid's velocity",
+        table->largest_uncertainty);
   if (points.empty()) {
     double largest = 0;
     for (const reference::CavityLine& line : computed_lines(parameters_)) {
@@ -195,7 +210,9 @@ mpm::VectorField LidDrivenCavityFlow::tabulated_points() const {
         points.emplace_back(parameters_.side * i / lattice_squares, parameters_.side * j / lattice_squares);
     return points;
   }
-  for (const reference::CavityPoint& point : reference::marchi_2009(100))  // the same places for any fluid
+  std::vector<reference::CavityPoint> places = published();
+  if (places.empty()) places = reference::marchi_2009(100);  // for the values that are computed
+  for (const reference::CavityPoint& point : places)
     points.emplace_back(parameters_.side * point.x, parameters_.side * point.y);
   return points;
 }

@@ -3,12 +3,14 @@
 #include "reference/fluids/flow_curve.hpp"
 #include "reference/vortices/lid_driven_cavity.hpp"
 #include "verification/flows/flow.hpp"
+#include "verification/flows/vortices/cavity_tables.hpp"
 
 namespace verification {
 
 /// The square cavity [0, L]^2 whose lid, y = L, moves along x with U from t = 0. The steady flow is known at
-/// the points of published tables alone, one component at each: there grid velocities are compared. Of other
-/// than Newtonian fluids it is computed there (reference/vortices/cavity_finite_volumes.hpp). A smooth lid
+/// the points of published tables alone, one component at each: there grid velocities are compared. For some
+/// other than Newtonian fluids the tables are this project's (cavity_tables.hpp); of any other it is computed
+/// there (reference/vortices/cavity_finite_volumes.hpp). A smooth lid
 /// moves with 16 U (x/L)^2 (1 - x/L)^2: the steady flow of a Newtonian fluid is then known everywhere
 /// (reference/vortices/smooth_cavity.hpp).
 struct LidDrivenCavityParameters {
@@ -36,8 +38,10 @@ class LidDrivenCavityFlow final : public Flow {
   [[nodiscard]] double length() const override { return parameters_.side; }
 
  private:
-  /// The table for the Reynolds number U L/nu; empty where there is none, or no such number.
+  /// The table for the Reynolds number U L/nu, or for the fluid; empty where there is none.
   [[nodiscard]] std::vector<reference::CavityPoint> published() const;
+  /// This project's; null where there is none.
+  [[nodiscard]] const CavityTable* own_table() const;
 
   [[nodiscard]] std::optional<double> reynolds() const;
 
