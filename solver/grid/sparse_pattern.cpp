@@ -86,4 +86,8 @@ FieldRows rows_of(VectorField& field) {
   return {field.front().data(), static_cast<Eigen::Index>(field.size()), 2};
 }
 
+ConstFieldRows rows_of(const VectorField& field) {
+  return {field.front().data(), static_cast<Eigen::Index>(field.size()), 2};
+}
+
 }  // namespace mpm

@@ -43,5 +43,7 @@ void decouple(SparseMatrix& matrix, const std::vector<char>& marked, double diag
 /// A nodal field as a matrix of one row a node.
 using FieldRows = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>;
 FieldRows rows_of(VectorField& field);
+using ConstFieldRows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>;
+ConstFieldRows rows_of(const VectorField& field);
 
 }  // namespace mpm

@@ -1,13 +1,13 @@
 #pragma once
 
+#include "solver/grid/remembered.hpp"
 #include "solver/grid/stencil.hpp"
 #include "solver/particles.hpp"
 
 namespace mpm {
 
 /// The stencils of all particles written out, for work on matrices: code that reads it is compiled once for
-/// every basis. Entry p * width + k is the k-th node of particle p,
-/// x running first.
+/// every basis. Entry p * width + k is the k-th node of particle p, x running first.
 struct StencilTable {
   int width = 0, support_x = 0;
   std::vector<int> node;
@@ -16,6 +16,9 @@ struct StencilTable {
 
   template <class Basis>
   void assign(const Grid& grid, const Particles& particles) {
+    // Rows that slide along a strip keep their stencils.
+    if constexpr (Basis::X::support == 1)
+      if (across_.same(particles.size(), [&](std::size_t p) { return particles.position[p].y(); })) return;
     support_x = Stencil<Basis>::support_x;
     width = support_x * Stencil<Basis>::support_y;
     const std::size_t entries = particles.size() * static_cast<std::size_t>(width);
@@ -31,6 +34,25 @@ struct StencilTable {
         ++e;
       });
   }
+
+  /// A particle's, as Stencil.
+  struct Row {
+    const int* node;
+    const double* value;
+    int width;
+    /// visit(node i, N_ip)
+    template <class Visit>
+    void values(Visit&& visit) const {
+      for (int k = 0; k < width; ++k) visit(static_cast<std::size_t>(node[k]), value[k]);
+    }
+  };
+  [[nodiscard]] Row stencil(std::size_t p) const {
+    const std::size_t first = p * static_cast<std::size_t>(width);
+    return {node.data() + first, value.data() + first, width};
+  }
+
+ private:
+  Remembered across_;  // coordinates [m]
 };
 
 }  // namespace mpm

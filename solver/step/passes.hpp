@@ -6,6 +6,7 @@
 #include "solver/material/stress_update.hpp"
 #include "solver/scene/seeding.hpp"
 #include "solver/step/nodal_forces.hpp"
+#include "solver/step/stage_rates.hpp"
 #include "solver/transfer/motion.hpp"
 #include "solver/transfer/particle_reset.hpp"
 #include "solver/transfer/straight_drift.hpp"
@@ -125,7 +126,8 @@ class Passes {
       scene_.acceleration_field(particles_.position, t, particle_acceleration_);
       body_force_ += add_particle_forces<Basis>(grid_, particles_, particle_acceleration_);
     }
-    if (has_cell_dilatation_)
+    if (implicit_viscosity_ && !scene_.fluid.pressure) {  // no stress but the viscous one
+    } else if (has_cell_dilatation_)
       add_cell_stress_forces<Basis>(grid_, particles_, cell_tension_);
     else
       add_stress_forces<Basis>(grid_, particles_);
@@ -180,13 +182,16 @@ class Passes {
     set_velocity(start_velocity_, dt);
   }
 
-  /// Solves M (v - start) = dt (f + viscous force of v) with the walls' velocity at t, from the present nodal
-  /// velocity. Returns the impulse of the walls.
-  Vec2 solve_viscosity(const VectorField& start, double t, double dt) {
+  /// Solves M (v - start) = dt (f + viscous force of v) with the walls' velocity at t. `beyond`: how far this
+  /// time lies after that of the last solution, in units of the last one's after the one before. Returns the
+  /// impulse of the walls.
+  Vec2 solve_viscosity(const VectorField& start, double t, double dt, double beyond) {
+    rates_.guess(start, dt, beyond, grid_.velocity);
     walls_.impose_velocity(grid_.velocity, t);
     const ImplicitSolution solution = implicit_viscosity_->solve(table_, particles_, mass_.matrix(grid_),
                                                                  start, grid_.force, dt, grid_.velocity);
     if (!solution.converged) breakdown_ = "the implicit viscosity did not converge";
+    rates_.keep(start, dt, grid_.velocity);
     return solution.wall_impulse;
   }
 
@@ -198,8 +203,15 @@ class Passes {
 
   /// The particles take from the grid what the transfer gives them.
   void grid_to_particles(double dt) {
-    for (std::size_t p = 0; p < particles_.size(); ++p)
-      transfer_.template take<Basis>(grid_, dt, particles_, p);
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      if constexpr (reads_table) {
+        Vec2 v = Vec2::Zero();
+        table_.stencil(p).values([&](std::size_t i, double n) { v += n * grid_.velocity[i]; });
+        particles_.velocity[p] = v;
+      } else {
+        transfer_.template take<Basis>(grid_, dt, particles_, p);
+      }
+    }
   }
 
   /// Moves the particles and compresses them with the velocity that they have at t, mapped where they are.
@@ -249,12 +261,16 @@ class Passes {
   Vec2 map_velocity(double t, Grid& grid, VectorField& velocity, Mass& mass, StencilTable& table) const {
     std::fill(grid.mass.begin(), grid.mass.end(), 0.0);
     std::fill(velocity.begin(), velocity.end(), Vec2::Zero());
-    for (std::size_t p = 0; p < particles_.size(); ++p)
-      transfer_.template add_momentum<Basis>(Stencil<Basis>(grid, particles_.position[p]), particles_, p,
-                                             grid.mass, velocity);
+    if (mass.needs_table() || implicit_viscosity_) table.assign<Basis>(grid, particles_);
+    for (std::size_t p = 0; p < particles_.size(); ++p) {
+      if constexpr (reads_table)
+        transfer_.template add_momentum<Basis>(table.stencil(p), particles_, p, grid.mass, velocity);
+      else
+        transfer_.template add_momentum<Basis>(Stencil<Basis>(grid, particles_.position[p]), particles_, p,
+                                               grid.mass, velocity);
+    }
     Vec2 total = Vec2::Zero();
     for (const Vec2& momentum : velocity) total += momentum;
-    if (mass.needs_table() || implicit_viscosity_) table.assign<Basis>(grid, particles_);
     mass.template assemble<Basis>(table, grid, particles_);
     mass.solve(grid, velocity, [&](VectorField& v) { walls_.impose_velocity(v, t); });
     return total;
@@ -286,6 +302,10 @@ class Passes {
     if (!breakdown_) breakdown_ = breakdown_of(motion);
   }
 
+  /// Whether particles find their stencils written out: with the matrix of a strip, where they stand as long
+  /// as rows slide.
+  static constexpr bool reads_table = Basis::X::support == 1 && std::is_same_v<Transfer, FullMass>;
+
   const Scene scene_;  // its own: whoever made it may be gone
   Transfer transfer_;
   Particles particles_;
@@ -298,6 +318,7 @@ class Passes {
   std::unique_ptr<StressUpdate> update_stress_;
   std::optional<ParticleReset<Basis, Transfer>> reset_;
   std::unique_ptr<ImplicitViscosity> implicit_viscosity_;
+  StageRates rates_;
   VectorField start_velocity_, stage_velocity_, particle_acceleration_;
   Vec2 body_force_ = Vec2::Zero(), impulse_ = Vec2::Zero();
   std::optional<std::string> breakdown_;

@@ -31,7 +31,7 @@ void step_implicit_euler(Passes& passes, double t, double dt) {
   passes.compress(dt);
   passes.set_pressure();
   passes.forces(t + dt);
-  const Vec2 wall_impulse = passes.solve_viscosity(passes.start_velocity(), t + dt, dt);
+  const Vec2 wall_impulse = passes.solve_viscosity(passes.start_velocity(), t + dt, dt, 1);
   passes.add_impulse(dt * passes.body_force() + wall_impulse);
   passes.accelerate_from_start(dt);
   passes.grid_to_particles(dt);
@@ -50,12 +50,13 @@ void step_implicit_sdirk2(Passes& passes, double t, double dt) {
   passes.set_pressure();
 
   passes.forces(t + gamma * dt);
-  Vec2 wall_impulse = carry * passes.solve_viscosity(passes.start_velocity(), t + gamma * dt, gamma * dt);
+  Vec2 wall_impulse = carry * passes.solve_viscosity(passes.start_velocity(), t + gamma * dt, gamma * dt,
+                                                     gamma / (1 - gamma));
   Vec2 body_impulse = (1 - gamma) * dt * passes.body_force();
   const VectorField& second_start = passes.carried_velocity(carry);
 
   passes.forces(t + dt);
-  wall_impulse += passes.solve_viscosity(second_start, t + dt, gamma * dt);
+  wall_impulse += passes.solve_viscosity(second_start, t + dt, gamma * dt, (1 - gamma) / gamma);
   body_impulse += gamma * dt * passes.body_force();
 
   passes.add_impulse(body_impulse + wall_impulse);

@@ -51,13 +51,15 @@ ConsistentMass::ConsistentMass(const Grid& grid) : is_wall_(grid.size(), 0) {
     iterative_.emplace(grid);
 }
 
-void ConsistentMass::assemble_direct(const StencilTable& table, const ScalarField& particle_mass) {
-  if (table.value == last_.value && table.node == last_.node && particle_mass == last_mass_)
-    return;  // rows that only slid along the flow
-  direct_->assemble(table, particle_mass);
+void ConsistentMass::assemble_direct(const StencilTable& table, const Grid& grid,
+                                     const Particles& particles) {
+  const Eigen::Index axis = grid.x.count() == 1 ? 1 : 0;
+  const bool stand =
+      across_.same(particles.size(), [&](std::size_t p) { return particles.position[p][axis]; });
+  const bool weigh = masses_.same(particles.size(), [&](std::size_t p) { return particles.mass[p]; });
+  if (stand && weigh) return;  // rows that only slid along the flow
+  direct_->assemble(table, particles.mass);
   fix_nodes();
-  last_ = table;
-  last_mass_ = particle_mass;
 }
 
 void ConsistentMass::fix_nodes() {

@@ -28,7 +28,7 @@ class ConsistentMass {
   /// Sums the matrix.
   template <class Basis>
   void assemble(const StencilTable& table, const Grid& grid, const Particles& particles) {
-    if (direct_) return assemble_direct(table, particles.mass);
+    if (direct_) return assemble_direct(table, grid, particles);
     iterative_->matrix.assemble<Basis>(grid, particles);
     fix_nodes();
   }
@@ -78,8 +78,8 @@ class ConsistentMass {
     ScalarField scale;  ///< (T_ii/M_ii)^1/2 [m/kg^1/2]; 0 on nodes that are fixed
   };
 
-  /// Sums and factorises, unless the stencils are the last ones.
-  void assemble_direct(const StencilTable& table, const ScalarField& particle_mass);
+  /// Sums and factorises, unless the particles stand across the strip as they last did.
+  void assemble_direct(const StencilTable& table, const Grid& grid, const Particles& particles);
   void fix_nodes();
   void solve_from(VectorField& guess, VectorField& field, const ScalarField& nodal_mass);
   void solve_direct(VectorField& guess, VectorField& field);
@@ -90,9 +90,8 @@ class ConsistentMass {
   bool has_walls_ = false;
   std::optional<Direct> direct_;
   std::optional<Iterative> iterative_;
-  double largest_ = 0;  // diagonal entry
-  StencilTable last_;   // whose matrix stands assembled, with these masses
-  ScalarField last_mass_;
+  double largest_ = 0;          // diagonal entry
+  Remembered across_, masses_;  // of the particles whose matrix stands assembled
   std::array<VectorField, 2> guess_;
   VectorField fixed_;  // prescribed values; zero elsewhere
   SparseMatrix written_out_;

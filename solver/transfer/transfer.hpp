@@ -18,9 +18,9 @@ namespace mpm {
 
 /// P2G of transfers whose particles carry a velocity only: sum_p N_ip m_p v_p (paper Eq. 15).
 struct VelocityToGrid {
-  template <class Basis>
-  void add_momentum(const Stencil<Basis>& stencil, const Particles& particles, std::size_t p,
-                    ScalarField& mass, VectorField& momentum) const {
+  template <class Basis, class Around>
+  void add_momentum(const Around& stencil, const Particles& particles, std::size_t p, ScalarField& mass,
+                    VectorField& momentum) const {
     const double m_p = particles.mass[p];
     const Vec2 v_p = particles.velocity[p];
     stencil.values([&](std::size_t i, double n) {

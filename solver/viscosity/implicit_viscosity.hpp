@@ -23,8 +23,8 @@ class ImplicitViscosity {
   /// `table` holds the particles' stencils, `mass` is the nodal mass matrix, `start` a velocity [m/s],
   /// `force` the other forces per unit depth [N/m], dt in [s].
   virtual ImplicitSolution solve(const StencilTable& table, const Particles& particles,
-                                 const SparseMatrix& mass, VectorField start, VectorField force, double dt,
-                                 VectorField& velocity) = 0;
+                                 const SparseMatrix& mass, const VectorField& start, const VectorField& force,
+                                 double dt, VectorField& velocity) = 0;
 };
 
 std::unique_ptr<ImplicitViscosity> make_implicit_viscosity(const Rheology& rheology, const Grid& grid,

@@ -1,60 +1,54 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "solver/material/stress_update.hpp"
+#include "solver/grid/remembered.hpp"
 #include "solver/viscosity/implicit_viscosity.hpp"
+#include "solver/viscosity/viscous_tangent.hpp"
 
 namespace mpm {
 
 /// The equations of backward Euler for a viscous stress, M (v - start) = dt (f + f_visc(v)), and their
-/// linearised matrix. What the stress is, the caller says: particle by particle.
+/// tangent. What the stress is, the caller says: particle by particle.
 class ViscousSystem {
  public:
-  ViscousSystem(const Grid& grid, const WallNodes& walls)
-      : cell_(std::min(grid.x.h, grid.y.h)), matrix_(pair_pattern(grid, 2)), slots_(grid, matrix_, 2) {
+  ViscousSystem(const Grid& grid, const WallNodes& walls) : grid_(grid), cell_(std::min(grid.x.h, grid.y.h)) {
     for (std::size_t i = 0; i < grid.size(); ++i) is_wall_.push_back(walls.is_wall(i) ? 1 : 0);
-    factors_.analyzePattern(matrix_);
   }
 
   /// The system at hand, arguments as ImplicitViscosity::solve. Nodes without mass get zero.
   void begin(const StencilTable& table, const Particles& particles, const SparseMatrix& mass,
-             VectorField& start, VectorField& force, double dt, VectorField& velocity) {
+             const VectorField& start, const VectorField& force, double dt, VectorField& velocity) {
     table_ = &table;
     particles_ = &particles;
     mass_ = &mass;
     start_ = &start;
     force_ = &force;
-    dt_ = dt;
-    is_fixed_ = is_wall_;
-    const Eigen::VectorXd diagonal = mass.diagonal();
-    const double heaviest = diagonal.maxCoeff();
-    scale_ = std::max(largest(start), largest(velocity));
+    if (!tangent_) tangent_ = make_viscous_tangent(grid_, is_strip());
+    if (!(stands(dt) && is_strip())) weigh();
     double push = 0;
     for (std::size_t i = 0; i < velocity.size(); ++i) {
-      const double m = diagonal[static_cast<Eigen::Index>(i)];
-      if (m > negligible_mass * heaviest) {
-        push = std::max(push, force[i].norm() * dt / m);
-        continue;
-      }
-      is_fixed_[i] = 1;
-      if (!is_wall_[i]) velocity[i] = Vec2::Zero();
+      push = std::max(push, inverse_mass_[i] * force[i].cwiseAbs().maxCoeff());
+      if (is_fixed_[i] && !is_wall_[i]) velocity[i] = Vec2::Zero();
     }
-    scale_ = std::max(scale_, push);
-    least_shear_squared_ = std::max(std::pow(shear_floor * scale_ / cell_, 2), 1e-200);
+    scale_ = std::max({largest(start), largest(velocity), dt * push});
+    const double least_shear = shear_floor * shear_scale();
+    least_shear_squared_ = std::max(least_shear * least_shear, 1e-200);
   }
 
   /// Largest velocity that the start or the forces give [m/s].
   [[nodiscard]] double scale() const { return scale_; }
   /// Shear rate of that velocity over a cell [1/s].
   [[nodiscard]] double shear_scale() const { return scale_ / cell_; }
+  /// Below which no square of a shear rate counts [1/s2].
+  [[nodiscard]] double least_shear_squared() const { return least_shear_squared_; }
   /// Size of a cell [m].
   [[nodiscard]] double cell() const { return cell_; }
+  /// Stencils that run along y alone have no slope along x.
+  [[nodiscard]] bool is_strip() const { return table_->support_x == 1; }
   /// The system's particles.
   [[nodiscard]] std::size_t particles() const { return particles_->size(); }
-  [[nodiscard]] bool factorised() const { return factorised_; }
 
   /// mu(q) and d mu/dq at q = gdot^2.
   template <class Law>
@@ -72,30 +66,49 @@ class ViscousSystem {
   }
 
   [[nodiscard]] Mat2 strain_rate(const VectorField& velocity, std::size_t p) const {
-    Mat2 l = Mat2::Zero();
-    const auto width = static_cast<std::size_t>(table_->width);
-    for (std::size_t e = p * width; e < (p + 1) * width; ++e)
-      l += velocity[static_cast<std::size_t>(table_->node[e])] * table_->gradient[e].transpose();
-    return 0.5 * (l + l.transpose());
+    return is_strip() ? strain_rate_at<true>(velocity, p) : strain_rate_at<false>(velocity, p);
   }
 
-  /// M (v - start) - dt (f + f_visc), zero at fixed nodes; what stood at the walls is kept. `stress(p, d)` is
-  /// a particle's stress [Pa] for its strain rate.
+  /// Of every particle [1/s].
+  void strain_rates(const VectorField& velocity, std::vector<Mat2>& rate) const {
+    rate.resize(particles());
+    const auto fill = [&]<bool strip>() {
+      for (std::size_t p = 0; p < rate.size(); ++p) rate[p] = strain_rate_at<strip>(velocity, p);
+    };
+    is_strip() ? fill.template operator()<true>() : fill.template operator()<false>();
+  }
+
+  /// M (v - start) - dt (f + f_visc), zero at fixed nodes; what stood at the walls is kept. `stress(p)` is a
+  /// particle's stress [Pa].
   template <class Stress>
   void residual_at(const VectorField& velocity, const Stress& stress, VectorField& residual) {
     difference_.resize(velocity.size());
+    residual.resize(velocity.size());
     for (std::size_t i = 0; i < velocity.size(); ++i) difference_[i] = velocity[i] - (*start_)[i];
     rows_of(residual).noalias() = *mass_ * rows_of(difference_);
     for (std::size_t i = 0; i < velocity.size(); ++i) residual[i] -= dt_ * (*force_)[i];
-    const auto width = static_cast<std::size_t>(table_->width);
-    for (std::size_t p = 0; p < particles_->size(); ++p) {
-      const Mat2 impulse = dt_ * volume(p) * stress(p, strain_rate(velocity, p));
-      for (std::size_t e = p * width; e < (p + 1) * width; ++e)
-        residual[static_cast<std::size_t>(table_->node[e])] += impulse * table_->gradient[e];
+    is_strip() ? add_impulses<true>(stress, residual) : add_impulses<false>(stress, residual);
+    keep_walls(residual);
+  }
+  /// Where the stress is linear and the tangent is_current(): sets the velocity to zero but at walls, and the
+  /// residual there, from which one direction() leads to the solution.
+  void linear_residual(VectorField& velocity, VectorField& residual) {
+    residual.resize(velocity.size());
+    rows_of(residual).noalias() = *mass_ * rows_of(*start_);
+    for (std::size_t i = 0; i < velocity.size(); ++i) residual[i] = -residual[i] - dt_ * (*force_)[i];
+    for (std::size_t i = 0; i < velocity.size(); ++i) {
+      if (!is_wall_[i])
+        velocity[i] = Vec2::Zero();
+      else if (velocity[i] != Vec2::Zero())
+        tangent_->add_columns(i, velocity[i], residual);
     }
-    wall_residual_ = residual;
-    for (std::size_t i = 0; i < residual.size(); ++i)
-      if (is_fixed_[i]) residual[i] = Vec2::Zero();
+    keep_walls(residual);
+  }
+
+  /// What a small step changes of the residual at the walls.
+  void close_walls(const VectorField& step) {
+    for (std::size_t i = 0; i < step.size(); ++i)
+      if (is_wall_[i]) wall_residual_[i] += tangent_->row_times(i, step);
   }
 
   /// The walls' impulse in the last residual [kg/s].
@@ -106,35 +119,22 @@ class ViscousSystem {
     return sum;
   }
 
-  /// A particle's strain rate D and, there, mu and d mu/dq.
-  struct Linearised {
-    Mat2 d;
-    double mu, slope;
-  };
+  [[nodiscard]] bool factorised() const { return factorised_; }
+  /// Whether the tangent is that of the system at hand, if the law's is the same everywhere: on a strip whose
+  /// rows slide.
+  [[nodiscard]] bool is_current() const { return is_current_; }
 
-  /// Matrix of the residual's derivative, symmetric: the part of it that trace D makes unsymmetric is left
-  /// out. `linearised(p)` gives a particle's law.
-  template <class Law>
-  void factorise(const Law& linearised) {
-    std::fill(matrix_.valuePtr(), matrix_.valuePtr() + matrix_.nonZeros(), 0.0);
-    for (int column = 0; column < mass_->outerSize(); ++column)
-      for (SparseMatrix::InnerIterator entry(*mass_, column); entry; ++entry)
-        for (int a : {0, 1})
-          matrix_.coeffRef(2 * static_cast<int>(entry.row()) + a, 2 * column + a) += entry.value();
-    const std::vector<int> distances = slots_.distances(table_->width, table_->support_x);
-    for (std::size_t p = 0; p < particles_->size(); ++p) add_particle(linearised(p), p, distances);
-    std::vector<char> marked;
-    for (const char fixed : is_fixed_) marked.insert(marked.end(), 2, fixed);
-    decouple(matrix_, marked, matrix_.diagonal().maxCoeff());
-    factors_.factorize(matrix_);
-    factorised_ = true;
+  /// Takes the tangent with an entry of `law` a particle.
+  void factorise(const std::vector<Linearised>& law) {
+    tangent_->factorise(*mass_, *table_, law, weight_, is_fixed_);
+    factorised_ = is_current_ = true;
   }
 
   /// step = -J^-1 residual
   void direction(const VectorField& residual, VectorField& step) const {
-    const Eigen::Map<const Eigen::VectorXd> r(residual.front().data(),
-                                              2 * static_cast<Eigen::Index>(residual.size()));
-    Eigen::Map<Eigen::VectorXd>(step.front().data(), r.size()) = factors_.solve(-r);
+    step.resize(residual.size());
+    for (std::size_t i = 0; i < residual.size(); ++i) step[i] = -residual[i];
+    tangent_->solve(step);
   }
 
   static double largest(const VectorField& field) {
@@ -152,42 +152,87 @@ class ViscousSystem {
   // infinite viscosity at rest. What it leaves out is a stress 1e-9^n of the flow's.
   static constexpr double shear_floor = 1e-9;
 
-  [[nodiscard]] double volume(std::size_t p) const { return particles_->mass[p] / particles_->density[p]; }
+  /// Whether the particles of a strip stand where they did across it, as heavy and dense, and dt is the same.
+  [[nodiscard]] bool stands(double dt) {
+    const std::size_t count = particles();
+    const bool across = across_.same(count, [&](std::size_t p) { return particles_->position[p].y(); });
+    const bool masses = masses_.same(count, [&](std::size_t p) { return particles_->mass[p]; });
+    const bool densities = densities_.same(count, [&](std::size_t p) { return particles_->density[p]; });
+    const bool same_dt = dt == dt_;
+    dt_ = dt;
+    return across && masses && densities && same_dt;
+  }
 
-  void add_particle(const Linearised& law, std::size_t p, const std::vector<int>& distances) {
+  /// Takes what the particles and their masses say.
+  void weigh() {
+    is_current_ = false;
+    weight_.resize(particles());
+    for (std::size_t p = 0; p < particles(); ++p)
+      weight_[p] = dt_ * (particles_->mass[p] / particles_->density[p]);
+    const Eigen::VectorXd diagonal = mass_->diagonal();
+    const double heaviest = diagonal.maxCoeff();
+    is_fixed_ = is_wall_;
+    inverse_mass_.assign(is_wall_.size(), 0.0);
+    for (std::size_t i = 0; i < is_wall_.size(); ++i) {
+      const double m = diagonal[static_cast<Eigen::Index>(i)];
+      if (m > negligible_mass * heaviest)
+        inverse_mass_[i] = 1 / m;
+      else
+        is_fixed_[i] = 1;
+    }
+  }
+
+  void keep_walls(VectorField& residual) {
+    wall_residual_ = residual;
+    for (std::size_t i = 0; i < residual.size(); ++i)
+      if (is_fixed_[i]) residual[i] = Vec2::Zero();
+  }
+
+  template <bool strip>
+  [[nodiscard]] Mat2 strain_rate_at(const VectorField& velocity, std::size_t p) const {
     const auto width = static_cast<std::size_t>(table_->width);
-    const auto& [d, mu, slope] = law;
-    const double weight = dt_ * volume(p);
-    for (std::size_t k = p * width; k < (p + 1) * width; ++k) {
-      const Vec2 g_k = table_->gradient[k], d_k = d * g_k;
-      for (std::size_t l = p * width; l < (p + 1) * width; ++l) {
-        const Vec2 g_l = table_->gradient[l], d_l = d * g_l;
-        const Mat2 block = weight * (mu * (g_k.dot(g_l) * Mat2::Identity() + g_l * g_k.transpose() -
-                                           (2.0 / 3.0) * g_k * g_l.transpose()) +
-                                     8 * slope * d_k * d_l.transpose());
-        for (int b : {0, 1}) {
-          const std::size_t first =
-              slots_.position(table_->node[k], distances[(k - p * width) * width + (l - p * width)], b);
-          for (int a : {0, 1}) matrix_.valuePtr()[first + static_cast<std::size_t>(a)] += block(a, b);
-        }
+    Mat2 l = Mat2::Zero();
+    for (std::size_t e = p * width; e < (p + 1) * width; ++e) {
+      const Vec2& v = velocity[static_cast<std::size_t>(table_->node[e])];
+      if constexpr (strip)
+        l.col(1) += table_->gradient[e].y() * v;
+      else
+        l += v * table_->gradient[e].transpose();
+    }
+    return 0.5 * (l + l.transpose());
+  }
+
+  template <bool strip, class Stress>
+  void add_impulses(const Stress& stress, VectorField& residual) const {
+    const auto width = static_cast<std::size_t>(table_->width);
+    for (std::size_t p = 0; p < weight_.size(); ++p) {
+      const Mat2 impulse = weight_[p] * stress(p);
+      for (std::size_t e = p * width; e < (p + 1) * width; ++e) {
+        Vec2& sum = residual[static_cast<std::size_t>(table_->node[e])];
+        if constexpr (strip)
+          sum += table_->gradient[e].y() * impulse.col(1);
+        else
+          sum += impulse * table_->gradient[e];
       }
     }
   }
 
+  const Grid& grid_;
   double cell_;
   std::vector<char> is_wall_, is_fixed_;
-  SparseMatrix matrix_;
-  PairSlots slots_;
-  Eigen::SimplicialLDLT<SparseMatrix> factors_;
-  bool factorised_ = false;
+  std::unique_ptr<ViscousTangent> tangent_;
+  bool factorised_ = false, is_current_ = false;
+  Remembered across_, masses_, densities_;  // of the particles of the last system
   // The system at hand.
   const StencilTable* table_ = nullptr;
   const Particles* particles_ = nullptr;
   const SparseMatrix* mass_ = nullptr;
-  VectorField *start_ = nullptr, *force_ = nullptr;
+  const VectorField *start_ = nullptr, *force_ = nullptr;
+  ScalarField weight_;        // dt V_p of the particles, per unit depth [m2 s]
+  ScalarField inverse_mass_;  // of the nodes [m/kg]; 0 without mass
   VectorField wall_residual_;
   VectorField difference_;  // work space
-  double dt_ = 0, scale_ = 0, least_shear_squared_ = 0;
+  double dt_ = -1, scale_ = 0, least_shear_squared_ = 0;
 };
 
 }  // namespace mpm

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "solver/material/rheology/dual_rate.hpp"
+#include "solver/material/stress_update.hpp"
 #include "solver/viscosity/viscous_system.hpp"
 
 namespace mpm {
@@ -26,7 +27,8 @@ class YieldNewton final : public ImplicitViscosity {
       : law_(law), system_(grid, walls) {}
 
   ImplicitSolution solve(const StencilTable& table, const Particles& particles, const SparseMatrix& mass,
-                         VectorField start, VectorField force, double dt, VectorField& velocity) override {
+                         const VectorField& start, const VectorField& force, double dt,
+                         VectorField& velocity) override {
     system_.begin(table, particles, mass, start, force, dt, velocity);
     const DualRate curve(law_, system_.shear_scale());
     place_.resize(system_.particles());
@@ -35,7 +37,7 @@ class YieldNewton final : public ImplicitViscosity {
     bool converged = false;
     double last_change = std::numeric_limits<double>::infinity(), share = 1;
     for (iterations_ = 0; iterations_ < most_iterations && !converged; ++iterations_) {
-      system_.factorise([&](std::size_t p) { return place_[p]; });
+      system_.factorise(place_);
       residual_at(velocity, residual);
       system_.direction(residual, step);
       const double change = ViscousSystem::largest(step);
@@ -95,9 +97,11 @@ class YieldNewton final : public ImplicitViscosity {
   }
 
   void residual_at(const VectorField& velocity, VectorField& residual) {
+    system_.strain_rates(velocity, rate_);
     system_.residual_at(
         velocity,
-        [&](std::size_t p, const Mat2& d) -> Mat2 {
+        [&](std::size_t p) -> Mat2 {
+          const Mat2& d = rate_[p];
           const auto& [at, mu, slope] = place_[p];
           return viscous_stress(mu, d) + (8 * slope * at.cwiseProduct(d - at).sum()) * at;
         },
@@ -107,7 +111,8 @@ class YieldNewton final : public ImplicitViscosity {
   HerschelBulkley law_;
   ViscousSystem system_;
   int iterations_ = 0;
-  std::vector<ViscousSystem::Linearised> place_;  // of each particle on its flow curve
+  std::vector<Linearised> place_;  // of each particle on its flow curve
+  std::vector<Mat2> rate_;         // of each particle where the last residual was
 };
 
 }  // namespace mpm

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "solver/material/rheology/power.hpp"
 #include "solver/scene/seeding.hpp"
 #include "solver/transfer/transfer.hpp"
 #include "solver/viscosity/viscous_newton.hpp"
@@ -13,8 +14,9 @@ namespace {
 struct TestPowerLaw {
   static constexpr bool needs_shear_rate = true;
   double consistency, n;
-  [[nodiscard]] double viscosity(double gdot_squared) const {
-    return consistency * std::pow(gdot_squared, 0.5 * (n - 1));
+  template <class Real>
+  [[nodiscard]] Real viscosity(const Real& gdot_squared) const {
+    return consistency * RealPower{0.5 * (n - 1)}(gdot_squared);
   }
 };
 

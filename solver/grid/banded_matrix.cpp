@@ -1,0 +1,62 @@
+#include "solver/grid/banded_matrix.hpp"
+
+#include <algorithm>
+
+namespace mpm {
+
+double BandedMatrix::row_times(int row, const double* vector) const {
+  double sum = 0;
+  for (int j = std::max(0, row - reach_); j <= row; ++j) sum += at(row, j) * vector[j];
+  for (int i = row + 1; i <= std::min(size_ - 1, row + reach_); ++i) sum += at(i, row) * vector[i];
+  return sum;
+}
+
+void BandedMatrix::add_column(int column, double factor, double* vector) const {
+  for (int i = std::max(0, column - reach_); i < column; ++i) vector[i] += factor * at(column, i);
+  for (int i = column; i <= std::min(size_ - 1, column + reach_); ++i) vector[i] += factor * at(i, column);
+}
+
+void BandedMatrix::decouple(const std::vector<char>& marked) {
+  double largest = 0;
+  for (int i = 0; i < size_; ++i) largest = std::max(largest, at(i, i));
+  for (int i = 0; i < size_; ++i)
+    for (int j = std::max(0, i - reach_); j <= i; ++j)
+      if (marked[static_cast<std::size_t>(i)] || marked[static_cast<std::size_t>(j)])
+        at(i, j) = i == j ? largest : 0;
+}
+
+void BandedMatrix::factorise() {
+  bool alternates = true;
+  for (int i = 0; i < size_; ++i)
+    for (int j = i - 1; j >= std::max(0, i - reach_); j -= 2) alternates = alternates && at(i, j) == 0;
+  stride_ = alternates ? 2 : 1;
+  for (int i = 0; i < size_; ++i) {
+    const int first = i - std::min(i, reach_) / stride_ * stride_;
+    double pivot = at(i, i);
+    for (int j = first; j < i; j += stride_) {  // at(i, k) holds L_ik D_k for k < j
+      double entry = at(i, j);
+      for (int k = std::max(first, j - reach_ / stride_ * stride_); k < j; k += stride_)
+        entry -= at(i, k) * at(j, k);
+      at(i, j) = entry;
+    }
+    for (int j = first; j < i; j += stride_) {
+      const double scaled = at(i, j);
+      at(i, j) = scaled / at(j, j);
+      pivot -= scaled * at(i, j);
+    }
+    at(i, i) = pivot;
+  }
+}
+
+void BandedMatrix::solve(double* x) const {
+  const double* row = band_.data() + reach_;  // its diagonal entry
+  for (int i = 0; i < size_; ++i, row += reach_ + 1)
+    for (int k = std::min(i, reach_) / stride_ * stride_; k > 0; k -= stride_) x[i] -= row[-k] * x[i - k];
+  for (int i = 0; i < size_; ++i) x[i] /= at(i, i);
+  for (int i = size_ - 1; i >= 0; --i) {
+    row -= reach_ + 1;
+    for (int k = stride_; k <= std::min(i, reach_); k += stride_) x[i - k] -= row[-k] * x[i];
+  }
+}
+
+}  // namespace mpm
