@@ -92,7 +92,10 @@ class MassSolve {
     fill_margins(x);
     Both size = precondition([&](int row) { subtract_product(row, b, x); });
     turn({{0, 0}});
-    for (int iteration = 0; iteration < most_iterations && exceeds(size, enough); ++iteration) {
+    // Once at least: a forecast that is near enough by itself would be what the next ones are made from, and
+    // their errors would add up.
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      if (iteration > 0 && !exceeds(size, enough)) break;
       const Both step = over(size, multiply_direction());
       const Both next = precondition([&](int row) { advance(row, step, x); });
       turn(over(next, size));
