@@ -8,8 +8,7 @@ namespace {
 
 using reference::CavityBenchmarkFluid;
 
-/// By which every flow of these from rest differs from its steady state by less than the tables' uncertainty
-/// [L/U].
+/// The format of tables wants a time: one late enough for a flow from rest [L/U].
 constexpr int steady_by = 60;
 
 bool on_a_line(const CavityBenchmarkRow& row) {
