@@ -7,7 +7,7 @@
 #include "reports/compare/compare.hpp"
 #include "reports/files/csv.hpp"
 #include "reports/files/io_error.hpp"
-#include "reports/records/bench_file.hpp"
+#include "reports/records/directory/bench_file.hpp"
 #include "reports/records/report_data.hpp"
 
 namespace reports {

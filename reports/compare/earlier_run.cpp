@@ -6,8 +6,8 @@
 
 #include "reports/files/io_error.hpp"
 #include "reports/records/changes.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "reports/records/provenance.hpp"
-#include "reports/records/result_files.hpp"
 
 namespace reports {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "reports/figures/drawing/figure_script.hpp"
 #include "reports/figures/figures.hpp"
-#include "reports/records/run_files.hpp"
+#include "reports/records/directory/run_files.hpp"
 
 namespace reports {
 

@@ -7,7 +7,7 @@
 
 #include "reports/figures/drawing/figure_script.hpp"
 #include "reports/files/io_error.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 
 namespace reports {
 

@@ -10,8 +10,8 @@
 #include "reports/pages/junit.hpp"
 #include "reports/pages/report_markdown.hpp"
 #include "reports/pages/summary.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "reports/records/report_data.hpp"
-#include "reports/records/result_files.hpp"
 
 namespace reports {
 namespace {

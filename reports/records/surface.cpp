@@ -1,7 +1,7 @@
 #include "reports/records/surface.hpp"
 
 #include "reports/files/csv.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 
 namespace reports {
 namespace {

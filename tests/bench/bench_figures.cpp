@@ -4,7 +4,7 @@
 
 #include "reports/figures/drawing/figure_script.hpp"
 #include "reports/figures/drawing/gnuplot.hpp"
-#include "tests/bench/work_count.hpp"
+#include "tests/bench/count/work_count.hpp"
 
 namespace bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/records/bench_file.hpp"
+#include "reports/records/directory/bench_file.hpp"
 
 namespace bench {
 

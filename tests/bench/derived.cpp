@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/bench/work_count.hpp"
+#include "tests/bench/count/work_count.hpp"
 
 namespace bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/records/bench_file.hpp"
+#include "reports/records/directory/bench_file.hpp"
 #include "tests/bench/bench_figures.hpp"
 #include "tests/bench/collector.hpp"
 #include "tests/bench/derived.hpp"

@@ -2,7 +2,7 @@
 
 #include "solver/kernel/isa.hpp"
 #include "solver/simulation.hpp"
-#include "tests/bench/plain_loop.hpp"
+#include "tests/bench/plain/plain_loop.hpp"
 
 // Rates of a step in particle-steps a second: the solver and, in the same run, the plain loop that it is
 // measured against.

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "solver/simulation.hpp"
-#include "tests/bench/plain_full_mass.hpp"
+#include "tests/bench/plain/plain_full_mass.hpp"
 
 // What solver and plain loops are given of Taylor-Green vortices in a periodic box, Re 100, c = 20 U.
 namespace bench {

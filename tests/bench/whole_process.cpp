@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "reports/compare/compare.hpp"
-#include "tests/bench/plain_loop.hpp"
+#include "tests/bench/plain/plain_loop.hpp"
 
 namespace bench {
 namespace {

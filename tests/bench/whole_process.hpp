@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/records/bench_file.hpp"
+#include "reports/records/directory/bench_file.hpp"
 
 namespace bench {
 

@@ -6,7 +6,7 @@
 
 #include "reports/compare/compare.hpp"
 #include "reports/files/io_error.hpp"
-#include "reports/records/run_files.hpp"
+#include "reports/records/directory/run_files.hpp"
 #include "tests/scratch_directory.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "reports/files/atomic_file.hpp"
-#include "reports/records/result_directory.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_directory.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "verification/benchmarks/cavity_files.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/output.hpp"

@@ -2,9 +2,9 @@
 
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/report.hpp"
-#include "reports/records/result_directory.hpp"
-#include "reports/records/result_files.hpp"
-#include "reports/records/run_files.hpp"
+#include "reports/records/directory/result_directory.hpp"
+#include "reports/records/directory/result_files.hpp"
+#include "reports/records/directory/run_files.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/output.hpp"
 #include "verification/commands/provenance_of.hpp"

@@ -11,7 +11,7 @@
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/console_table.hpp"
 #include "reports/pages/report.hpp"
-#include "reports/records/result_directory.hpp"
+#include "reports/records/directory/result_directory.hpp"
 #include "reports/summaries/scoreboard.hpp"
 #include "verification/commands/output.hpp"
 #include "verification/commands/provenance_of.hpp"

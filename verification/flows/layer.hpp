@@ -5,8 +5,8 @@
 
 namespace verification {
 
-/// A scene whose solution varies across it alone: `thickness` [m] in d.cells cells, d.cells_along cells of the
-/// same size along `along` (0: x, 1: y), periodic, without a fluid yet.
+/// A scene whose solution varies across it alone: `thickness` [m] in d.cells cells, d.cells_along cells of
+/// the same size along `along` (0: x, 1: y), periodic, without a fluid yet.
 inline mpm::Scene layer(double thickness, int along, const Discretisation& d) {
   const int across = 1 - along;
   mpm::Scene scene;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/reading/study_reader.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "verification/checks/check_reader.hpp"
 #include "verification/checks/expected_checks.hpp"
 #include "verification/config/config_error.hpp"

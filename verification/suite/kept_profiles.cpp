@@ -1,7 +1,7 @@
 #include "verification/suite/kept_profiles.hpp"
 
 #include "reports/figures/figures.hpp"
-#include "reports/records/run_files.hpp"
+#include "reports/records/directory/run_files.hpp"
 #include "reports/records/surface.hpp"
 
 namespace verification {

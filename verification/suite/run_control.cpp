@@ -9,7 +9,7 @@
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/process/child.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "verification/runs/interruption.hpp"
 
 namespace verification {

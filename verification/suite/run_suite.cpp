@@ -9,7 +9,7 @@
 
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "verification/checks/check_reader.hpp"
 #include "verification/runs/foreign/run_foreign.hpp"
 #include "verification/runs/interruption.hpp"

@@ -32,7 +32,8 @@ class Bands {
   /// The sums to which f(i, sums) adds a component.
   template <class F>
   [[nodiscard]] Both sum(F&& f) const {
-    return sum_of_rows([&](int row, Lanes(&sums)[2]) { lattice_.each_vector(row, [&](int i) { f(i, sums); }); });
+    return sum_of_rows(
+        [&](int row, Lanes(&sums)[2]) { lattice_.each_vector(row, [&](int i) { f(i, sums); }); });
   }
   /// The sums to which f(row, sums) adds a component.
   template <class F>

@@ -27,8 +27,7 @@ class Forecast {
     for (std::size_t k = 0; k < count_; ++k) {
       weight[k] = 1;
       for (std::size_t other = 0; other < count_; ++other)
-        if (other != k)
-          weight[k] *= (time - known_[other].time) / (known_[k].time - known_[other].time);
+        if (other != k) weight[k] *= (time - known_[other].time) / (known_[k].time - known_[other].time);
     }
     bands.each_vector([&](int i) {
       for (std::size_t c : {0, 1}) {

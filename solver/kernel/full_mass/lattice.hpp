@@ -20,8 +20,8 @@ class Lattice {
       periodic_[a] = axis[a].periodic;
       count_[a] = axis[a].cells + (axis[a].periodic ? 0 : degree);
     }
-    // Whole vectors of a row reach no margin of the next. Rows that lie a power of two apart would compete for
-    // the same lines of the cache.
+    // Whole vectors of a row reach no margin of the next. Rows that lie a power of two apart would compete
+    // for the same lines of the cache.
     stride_ = whole_vectors(whole_vectors(count_[0]) + 2 * degree);
     if (stride_ % 64 == 0) stride_ += std::max(width, 8);
   }

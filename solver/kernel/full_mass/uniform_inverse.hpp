@@ -8,8 +8,9 @@
 namespace mpm::MPM_ISA {
 
 /// What conjugate gradients for a mass matrix are preconditioned with: next to the inverse of a uniform
-/// fluid's, a tensor product of one matrix an axis (solver/grid/tensor_mass.hpp), scaled to the true diagonal.
-/// The matrices are LineMass::inverse: a sum over a few neighbours needs none of its results before.
+/// fluid's, a tensor product of one matrix an axis (solver/grid/tensor_mass.hpp), scaled to the true
+/// diagonal. The matrices are LineMass::inverse: a sum over a few neighbours needs none of its results
+/// before.
 class UniformInverse {
  public:
   UniformInverse(const Lattice& lattice, const std::array<LineMass, 2>& mass)
@@ -76,7 +77,7 @@ class UniformInverse {
 
   const Lattice& lattice_;
   int reach_[2];
-  std::vector<Lanes> taps_along_;   // of the nodes of a vector, one vector after another
+  std::vector<Lanes> taps_along_;  // of the nodes of a vector, one vector after another
   std::vector<double> taps_across_;
   LatticeVector along_;
 };

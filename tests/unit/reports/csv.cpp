@@ -10,8 +10,8 @@
 
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
-#include "reports/records/result_files.hpp"
-#include "reports/records/run_files.hpp"
+#include "reports/records/directory/result_files.hpp"
+#include "reports/records/directory/run_files.hpp"
 #include "tests/catch.hpp"
 #include "tests/scratch_directory.hpp"
 #include "tests/unit/reports/sample.hpp"

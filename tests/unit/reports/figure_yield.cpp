@@ -3,7 +3,7 @@
 
 #include "reports/figures/figures.hpp"
 #include "reports/files/io_error.hpp"
-#include "reports/records/run_files.hpp"
+#include "reports/records/directory/run_files.hpp"
 #include "tests/catch.hpp"
 #include "tests/scratch_directory.hpp"
 

@@ -13,7 +13,7 @@
 #include "reports/pages/summary.hpp"
 #include "reports/records/changes.hpp"
 #include "reports/records/chapters.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "tests/catch.hpp"
 #include "tests/scratch_directory.hpp"
 #include "tests/study_text.hpp"

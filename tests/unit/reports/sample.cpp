@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <limits>
 
+#include "reports/records/directory/result_files.hpp"
+#include "reports/records/directory/run_files.hpp"
 #include "reports/records/provenance.hpp"
-#include "reports/records/result_files.hpp"
-#include "reports/records/run_files.hpp"
 
 namespace {
 

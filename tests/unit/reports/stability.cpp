@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "reports/figures/figures.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "tests/catch.hpp"
 #include "tests/scratch_directory.hpp"
 #include "tests/unit/reports/sample.hpp"

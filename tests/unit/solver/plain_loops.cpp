@@ -1,4 +1,4 @@
-#include "tests/bench/plain_loop.hpp"
+#include "tests/bench/plain/plain_loop.hpp"
 #include "tests/bench/vortices.hpp"
 #include "tests/catch.hpp"
 

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "reports/files/atomic_file.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "verification/commands/output.hpp"
 #include "verification/config/config_error.hpp"
 

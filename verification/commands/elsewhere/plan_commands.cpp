@@ -8,7 +8,7 @@
 #include "reports/figures/figures.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/content_hash.hpp"
-#include "reports/records/result_directory.hpp"
+#include "reports/records/directory/result_directory.hpp"
 #include "verification/checks/check_reader.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/elsewhere/shard_commands.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "reports/records/directory/result_directory.hpp"
 #include "reports/records/provenance.hpp"
-#include "reports/records/result_directory.hpp"
 #include "solver/kernel/isa.hpp"
 #include "verification/commands/commands.hpp"
 #include "verification/commands/output.hpp"

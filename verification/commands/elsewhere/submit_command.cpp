@@ -8,7 +8,7 @@
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/process/child.hpp"
-#include "reports/records/result_directory.hpp"
+#include "reports/records/directory/result_directory.hpp"
 #include "verification/commands/elsewhere/shard_commands.hpp"
 #include "verification/commands/elsewhere/slurm.hpp"
 #include "verification/commands/output.hpp"

@@ -4,7 +4,7 @@
 
 #include "reports/pages/console_table.hpp"
 #include "reports/pages/report.hpp"
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 #include "tests/scratch_directory.hpp"
 #include "tests/study_text.hpp"
 

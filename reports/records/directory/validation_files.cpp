@@ -1,4 +1,4 @@
-#include "reports/records/validation_files.hpp"
+#include "reports/records/directory/validation_files.hpp"
 
 #include "reports/files/csv.hpp"
 

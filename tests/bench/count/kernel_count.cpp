@@ -1,5 +1,5 @@
-#include "tests/bench/counted_kernel.hpp"
-#include "tests/bench/work_count.hpp"
+#include "tests/bench/count/counted_kernel.hpp"
+#include "tests/bench/count/work_count.hpp"
 
 namespace bench {
 

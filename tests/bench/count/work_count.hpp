@@ -1,7 +1,7 @@
 #pragma once
 
-#include "tests/bench/counted.hpp"
-#include "tests/bench/plain_loop.hpp"
+#include "tests/bench/count/counted.hpp"
+#include "tests/bench/plain/plain_loop.hpp"
 
 namespace bench {
 

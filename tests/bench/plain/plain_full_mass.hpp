@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "tests/bench/plain_vortices.hpp"
+#include "tests/bench/plain/plain_vortices.hpp"
 
 namespace plain {
 

@@ -1,4 +1,4 @@
-#include "reports/records/result_directory.hpp"
+#include "reports/records/directory/result_directory.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

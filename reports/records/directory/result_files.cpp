@@ -1,4 +1,4 @@
-#include "reports/records/result_files.hpp"
+#include "reports/records/directory/result_files.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "reports/files/csv.hpp"
 #include "reports/files/io_error.hpp"
-#include "reports/records/validation_files.hpp"
+#include "reports/records/directory/validation_files.hpp"
 
 namespace reports {
 namespace {

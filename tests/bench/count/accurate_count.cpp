@@ -1,11 +1,11 @@
 // As kernel_count.cpp, of the schemes that are accurate in two dimensions.
-#include "tests/bench/counted_kernel.hpp"
+#include "tests/bench/count/counted_kernel.hpp"
 // After it: kernels that count themselves.
 #include "solver/grid/sparse_pattern.hpp"
 #include "solver/kernel/full_mass/lane_full_mass.hpp"
 #include "solver/lanes/line_mass.hpp"
+#include "tests/bench/count/work_count.hpp"
 #include "tests/bench/vortices.hpp"
-#include "tests/bench/work_count.hpp"
 
 namespace bench {
 namespace {
