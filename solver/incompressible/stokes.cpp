@@ -43,13 +43,11 @@ Stokes::Stokes(const Scene& scene, const VelocitySpace& space, const ExactMass& 
       mass_(mass),
       basis_(space.solenoidal_basis()),
       reduced_mass_((basis_.transpose() * mass.matrix() * basis_).pruned()),
+      mass_factor_(space, reduced_mass_),
       viscosity_(make_viscosity(scene, space, basis_, reduced_mass_, shares)),
       last_(VectorXd::Zero(basis_.cols())),
       traction_(traction_load(space, scene)),
       uniform_{uniform_load(space, 0), uniform_load(space, 1)} {
-  mass_factor_.compute(reduced_mass_);
-  if (mass_factor_.info() != Eigen::Success)
-    throw SceneError("the mass of this grid could not be factorised");
   for (const std::size_t a : {0u, 1u})
     if (space.axis(static_cast<int>(a)).periodic())
       uniform_coordinates_[a] = mass_factor_.solve(basis_.transpose() * uniform_[a]);

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <memory>
 
 #include "solver/incompressible/incompressible_scheme.hpp"
+#include "solver/incompressible/space/solenoidal_factor.hpp"
 #include "solver/incompressible/viscosity/viscosity.hpp"
 
 namespace mpm::incompressible {
@@ -42,8 +42,6 @@ class Stokes {
                                                          const std::vector<Stage>& stages) const;
 
  private:
-  using Factor = Eigen::SimplicialLLT<SparseMatrix>;
-
   /// Body forces at a time, on velocities [m3/s2].
   [[nodiscard]] VectorXd forces(double t) const;
   /// Along periodic directions the sum of all forces on a velocity; along others what the momentum gained by.
@@ -53,7 +51,7 @@ class Stokes {
   const VelocitySpace& space_;
   const ExactMass& mass_;
   SparseMatrix basis_, reduced_mass_;
-  Factor mass_factor_;
+  SolenoidalFactor mass_factor_;
   std::unique_ptr<Viscosity> viscosity_;
   VectorXd last_;                                // the coordinates of the last solution
   VectorXd traction_;                            // of sides that pull, which stays

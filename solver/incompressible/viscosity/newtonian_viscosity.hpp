@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <map>
 #include <memory>
 
+#include "solver/incompressible/space/solenoidal_factor.hpp"
 #include "solver/incompressible/viscosity/viscosity.hpp"
 
 namespace mpm::incompressible {
@@ -15,6 +15,7 @@ class NewtonianViscosity final : public Viscosity {
   NewtonianViscosity(const Scene& scene, const VelocitySpace& space, const SparseMatrix& basis,
                      const SparseMatrix& mass, double nu, const WallShares& shares = {})
       : nu_(nu),
+        space_(space),
         basis_(basis),
         mass_(mass),
         form_(space, scene, shares),
@@ -31,19 +32,18 @@ class NewtonianViscosity final : public Viscosity {
   [[nodiscard]] Solution solved(double a, double t, const VectorXd& load, const VectorXd&) override {
     constexpr std::size_t most = 6;  // steps of a run differ where they end on an output
     if (factors_.size() > most && !factors_.contains(a)) factors_.clear();
-    std::unique_ptr<Factor>& factor = factors_[a];
-    if (!factor) factor = std::make_unique<Factor>(mass_ + (a * nu_) * matrix_);
+    std::unique_ptr<SolenoidalFactor>& factor = factors_[a];
+    if (!factor) factor = std::make_unique<SolenoidalFactor>(space_, mass_ + (a * nu_) * matrix_);
     return {factor->solve(load + (a * nu_) * (basis_.transpose() * form_.wall_load(t))), true};
   }
 
  private:
-  using Factor = Eigen::SimplicialLLT<SparseMatrix>;
-
   double nu_;
+  const VelocitySpace& space_;
   const SparseMatrix &basis_, &mass_;
   ViscousForm form_;
   SparseMatrix matrix_;
-  std::map<double, std::unique_ptr<Factor>> factors_;  // by a
+  std::map<double, std::unique_ptr<SolenoidalFactor>> factors_;  // by a
 };
 
 }  // namespace mpm::incompressible

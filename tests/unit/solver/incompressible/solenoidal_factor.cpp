@@ -1,0 +1,51 @@
+#include "solver/incompressible/space/solenoidal_factor.hpp"
+
+#include <cmath>
+
+#include "solver/incompressible/viscosity/viscous_form.hpp"
+#include "tests/catch.hpp"
+
+using namespace mpm;
+using namespace mpm::incompressible;
+
+namespace {
+
+Scene periodic_box(int along_x, int along_y) {
+  Scene scene;
+  scene.size = {1, 1.5};
+  scene.cells = {along_x, along_y};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("Fourier modes solve what Cholesky's factor solves where no side is a wall", "[incompressible]") {
+  const auto [x, y] = GENERATE(std::pair(1, 1), std::pair(1, 5), std::pair(2, 2), std::pair(4, 3),
+                               std::pair(8, 11), std::pair(13, 16));
+  const int k = GENERATE(2, 3, 4);
+  const Scene scene = periodic_box(x, y);
+  const VelocitySpace space(scene, k);
+  const ExactMass mass(space);
+  const SparseMatrix basis = space.solenoidal_basis();
+  const SparseMatrix reduced = (basis.transpose() * mass.matrix() * basis).pruned();
+  const SparseMatrix viscous = (basis.transpose() * ViscousForm(space, scene).matrix() * basis).pruned();
+  VectorXd load(basis.cols());
+  for (Eigen::Index i = 0; i < load.size(); ++i)
+    load[i] = std::sin(1.0 + 7.3 * static_cast<double>(i * i % 101));
+  for (const double a_nu : {0.0, 1e-3, 1.0}) {
+    const SparseMatrix matrix = reduced + a_nu * viscous;
+    const VectorXd expected = Eigen::SimplicialLLT<SparseMatrix>(matrix).solve(load);
+    const VectorXd found = SolenoidalFactor(space, matrix).solve(load);
+    // Conditions up to some 1e6 here, times round-off.
+    CHECK((found - expected).norm() < 1e-9 * expected.norm());
+    CHECK((matrix * found - load).norm() < 1e-11 * load.norm());
+  }
+}
+
+TEST_CASE("a matrix that is not positive definite is refused", "[incompressible]") {
+  const Scene scene = periodic_box(4, 5);
+  const VelocitySpace space(scene, 3);
+  const SparseMatrix basis = space.solenoidal_basis();
+  const SparseMatrix mass = (basis.transpose() * ExactMass(space).matrix() * basis).pruned();
+  CHECK_THROWS_AS(SolenoidalFactor(space, -1 * mass), SceneError);
+}
