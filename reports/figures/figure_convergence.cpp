@@ -33,11 +33,12 @@ std::string axis_of(const FigureRecord& record, const Results& results) {
 }
 
 std::vector<Ladder> ladders_of(const FigureRecord& record, const Results& results, const std::string& axis) {
-  const std::vector<std::string> locations = locations_of(record);
+  const std::vector<std::string> locations = locations_of(record), variants = split_list(record.labels);
   std::vector<Ladder> ladders;
   const auto matches = [&](const auto& row) {
     return row.study == record.study && row.axis == axis && row.norm == norm_of(record) &&
-           std::find(locations.begin(), locations.end(), row.location) != locations.end();
+           std::find(locations.begin(), locations.end(), row.location) != locations.end() &&
+           (variants.empty() || std::find(variants.begin(), variants.end(), row.variant) != variants.end());
   };
   const auto same = [](const Ladder& ladder, const auto& row) {
     return ladder.variant == row.variant && ladder.location == row.location && ladder.t == row.t;

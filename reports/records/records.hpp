@@ -255,7 +255,7 @@ struct FigureRecord {
   std::string kind;
   std::string title;  ///< the claim that the figure shows
   /// Runs to draw (profiles, history, work-precision); "" = all of the study. stability-map: schemes, as
-  /// basis_transfer_stepping.
+  /// basis_transfer_stepping. (`labels` of convergence: its variants; "" = all.)
   std::string runs;
   std::string labels;  ///< a legend entry for each run; "" = run names. regularisation: its m [s]
   std::string across;  ///< profiles: "x" or "y"; work-precision: "wall" or "particle-steps";

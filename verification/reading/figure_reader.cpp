@@ -146,7 +146,14 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
     figure.across = last->scene.flow->across() == 0 ? "x" : "y";
     figure.component = last->scene.flow->probe().direction.x() != 0 ? "u" : "v";
   }
+  if (figure.kind == "convergence" && table.has("variants")) figure.labels = joined(variants);
   if (figure.kind == "work-precision") {
+    if (table.has("variants")) {
+      runs.clear();
+      for (const std::string& variant : variants)
+        for (const PlannedRun* run : study.runs_of(variant)) runs.push_back(run->run);
+      figure.runs = joined(runs);
+    }
     figure.across = table.text("cost", "wall");
     if (figure.across != "wall" && figure.across != "particle-steps")
       table.fail("cost", "must be \"wall\" or \"particle-steps\"");
