@@ -6,7 +6,7 @@
 #include "solver/incompressible/particle_weights.hpp"
 #include "solver/incompressible/space/exact_mass.hpp"
 #include "solver/incompressible/space/stencil_diagonals.hpp"
-#include "solver/kernel/thread_team.hpp"
+#include "solver/kernel/threads/thread_team.hpp"
 
 namespace mpm::incompressible {
 

@@ -27,7 +27,8 @@ class CellField {
   }
 
   /// u(x_p) = sum_i N_ip u_i
-  [[nodiscard]] Lanes at(const CellWeights<Basis>& n_p) const {
+  template <class Weights>
+  [[nodiscard]] Lanes at(const Weights& n_p) const {
     if constexpr (Basis::is_bilinear) {
       return (u_[0] + n_p.s * u_[1]) + n_p.t * (u_[2] + n_p.s * u_[3]);
     } else {
@@ -42,7 +43,9 @@ class CellField {
   struct Affinely {
     Lanes value, change[2];
   };
-  [[nodiscard]] Affinely affinely_at(const CellWeights<Basis>& n_p, const CellMoments<Basis>& m_p) const {
+  template <class Weights>
+  [[nodiscard]] Affinely affinely_at(const Weights& n_p,
+                                     const CellMoments<Basis, Weights::is_uniform>& m_p) const {
     if constexpr (Basis::is_bilinear) {
       const Lanes along = u_[1] + n_p.t * u_[3];
       return {(u_[0] + n_p.t * u_[2]) + n_p.s * along, {along, u_[2] + n_p.s * u_[3]}};
@@ -82,7 +85,8 @@ class CellGradient {
   struct Gradient {
     Lanes d_0, d_1;
   };
-  [[nodiscard]] Gradient at(const CellWeights<Basis>& n_p) const {
+  template <class Weights>
+  [[nodiscard]] Gradient at(const Weights& n_p) const {
     if constexpr (Basis::is_bilinear) {
       return {u_[0] + n_p.t * u_[1], u_[2] + n_p.s * u_[3]};
     } else {

@@ -15,7 +15,8 @@ class MomentumSums {
  public:
   static constexpr int fields = with_mass ? 3 : 2;
 
-  void add(const CellWeights<Basis>& n_p, Lanes m, const Lanes (&v)[2]) {
+  template <class Weights>
+  void add(const Weights& n_p, Lanes m, const Lanes (&v)[2]) {
     n_p.values_times(m, [&](int i, Lanes n_m) {
       if constexpr (with_mass) sum_[0][i] += n_m;
       sum_[fields - 2][i] += n_m * v[0];
@@ -23,7 +24,8 @@ class MomentumSums {
     });
   }
 
-  void add(const CellWeights<Basis>& n_p, Lanes m, const AffineVelocity<Basis>& v) {
+  template <class Weights>
+  void add(const Weights& n_p, Lanes m, const AffineVelocity<Basis, Weights::is_uniform>& v) {
     n_p.values_times(m, [&](int i, Lanes n_m) {
       if constexpr (with_mass) sum_[0][i] += n_m;
       sum_[fields - 2][i] += n_m * v.at(0, i);
@@ -44,7 +46,8 @@ class DivergenceSums {
  public:
   static constexpr int fields = 2;
 
-  void add(const CellWeights<Basis>& n_p, const Stress& q) {
+  template <class Weights>
+  void add(const Weights& n_p, const Stress& q) {
     if constexpr (Basis::is_bilinear) {
       const Lanes q_0[2] = {q.s_00, q.s_01}, q_1[2] = {q.s_01, q.s_11};
       for (int c : {0, 1}) {
@@ -72,14 +75,19 @@ class DivergenceSums {
   }
 
  private:
-  void add_tensor_products(const CellWeights<Basis>& n_p, const Stress& q) {
+  template <class Weights>
+  void add_tensor_products(const Weights& n_p, const Stress& q) {
     constexpr int columns = Basis::support[0], rows = Basis::support[1];
     unroll<rows>([&](int l) {
       const Lanes n = n_p.across.value[l], dn = n_p.across.slope[l];
       const Lanes n_00 = n * q.s_00, n_01 = n * q.s_01, dn_01 = dn * q.s_01, dn_11 = dn * q.s_11;
       unroll<columns>([&](int k) {
-        sum_[0][l * columns + k] += n_00 * n_p.along.slope[k] + dn_01 * n_p.along.value[k];
-        sum_[1][l * columns + k] += n_01 * n_p.along.slope[k] + dn_11 * n_p.along.value[k];
+        // A product at a time: each is one operation with its sum.
+        Lanes &sum_0 = sum_[0][l * columns + k], &sum_1 = sum_[1][l * columns + k];
+        sum_0 += n_00 * n_p.along.slope[k];
+        sum_0 += dn_01 * n_p.along.value[k];
+        sum_1 += n_01 * n_p.along.slope[k];
+        sum_1 += dn_11 * n_p.along.value[k];
       });
     });
   }

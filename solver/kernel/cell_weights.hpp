@@ -18,17 +18,22 @@ struct LaneBasis {
   /// Distance of a cell's i-th node from its first, in the numbering of nodes.
   [[nodiscard]] int offset(int i) const { return i / support[0] * stride + i % support[0]; }
 
+  /// Whether the functions of a uniform grid away from walls are written out, which costs less than
+  /// polynomials from memory.
+  static constexpr bool has_uniform_form = degree == 2;
+
   /// Whether u(x) in a cell is a + b s + c t + d s t with s, t in [0, 1): few operations beside a sum over
   /// nodes.
   static constexpr bool is_bilinear = degree == 1 && !is_strip;
 };
 
-/// N and dN/dx of one axis, in the cells of a block: values [-] and slopes [1/m].
-template <int degree, int support>
+/// N and dN/dx of one axis, in the cells of a block: values [-] and slopes [1/m]. `is_uniform`: in blocks
+/// that say so (Block::is_uniform).
+template <int degree, int support, bool is_uniform>
 struct LineWeights {
   Lanes value[support], slope[support];
 
-  LineWeights(Lanes s, double inverse_h, const Lanes* polynomials) {
+  LineWeights(Lanes s, double inverse_h, [[maybe_unused]] const Lanes* polynomials) {
     if constexpr (support == 1) {  // nothing varies along this axis
       value[0] = 1;
       slope[0] = 0;
@@ -37,6 +42,15 @@ struct LineWeights {
       value[1] = s;
       slope[0] = -inverse_h;
       slope[1] = inverse_h;
+    } else if constexpr (is_uniform) {
+      static_assert(degree == 2);
+      const Lanes r = 1 - s;
+      value[0] = 0.5 * r * r;
+      value[1] = 0.5 + s * r;
+      value[2] = 0.5 * s * s;
+      slope[0] = -inverse_h * r;
+      slope[2] = inverse_h * s;
+      slope[1] = 0 - slope[0] - slope[2];
     } else {
       unroll<support>([&](int k) {
         Lanes n = polynomials[degree * support + k], dn = 0;
@@ -53,11 +67,12 @@ struct LineWeights {
 
 /// N_ip and grad N_ip of the particles of a slot at the nodes i of their cells: products of one function
 /// along and one across the lanes.
-template <class Basis>
+template <class Basis, bool is_of_uniform_grid = false>
 struct TensorWeights {
   static constexpr int columns = Basis::support[0], rows = Basis::support[1];
-  LineWeights<Basis::degree, columns> along;
-  LineWeights<Basis::degree, rows> across;
+  static constexpr bool is_uniform = is_of_uniform_grid;
+  LineWeights<Basis::degree, columns, is_uniform> along;
+  LineWeights<Basis::degree, rows, is_uniform> across;
 
   /// s: their places in the cells
   TensorWeights(const Basis& basis, const Block& block, const Lanes s[2])
@@ -76,6 +91,7 @@ struct TensorWeights {
 
 /// The same of the bilinear basis (1 - s)(1 - t), s (1 - t), (1 - s) t, s t: nothing but places in the cell.
 struct BilinearWeights {
+  static constexpr bool is_uniform = false;
   Lanes s, t;
 
   template <class Basis>
@@ -93,5 +109,14 @@ struct BilinearWeights {
 
 template <class Basis>
 using CellWeights = std::conditional_t<Basis::is_bilinear, BilinearWeights, TensorWeights<Basis>>;
+
+/// f(weights of a slot) of what makes them in a block: a function of the places of its particles.
+template <class Basis, class F>
+[[gnu::always_inline]] inline void with_weights(const Basis& basis, const Block& block, F&& f) {
+  if constexpr (Basis::has_uniform_form)
+    if (block.is_uniform)
+      return f([&](const Lanes s[2]) { return TensorWeights<Basis, true>(basis, block, s); });
+  f([&](const Lanes s[2]) { return CellWeights<Basis>(basis, block, s); });
+}
 
 }  // namespace mpm::MPM_ISA

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include "solver/kernel/block_functions.hpp"
 #include "solver/kernel/kernel.hpp"
 #include "solver/kernel/lanes.hpp"
 #include "solver/kernel/storage.hpp"
@@ -44,7 +44,8 @@ struct Names {
 struct Block {
   int first_node;              ///< of the first cell
   int count[width] = {};       ///< particles a cell
-  const Lanes* functions[2];   ///< of the basis in these cells: LineOfCells::functions across lanes
+  const Lanes* functions[2];   ///< of the basis in these cells (BlockFunctions)
+  bool is_uniform;             ///< along either axis in which something varies: no wall is near
   std::size_t first_slot;      ///< in the store of all slots
   int size = 0, capacity = 0;  ///< slots in use, slots reserved
 };
@@ -59,12 +60,17 @@ class Cells {
  public:
   /// `stride` from a row of cells to the next.
   Cells(const KernelSetup& setup, int stride)
-      : axis_(setup.axis), stride_(stride), degree_(setup.degree), is_affine_(setup.is_affine) {
+      : axis_(setup.axis),
+        stride_(stride),
+        functions_(setup.axis, stride, setup.degree),
+        is_affine_(setup.is_affine) {
     blocks_.resize(static_cast<std::size_t>((stride_ * axis_[1].cells + width - 1) / width));
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       Block& block = blocks_[b];
       block.first_node = static_cast<int>(b) * width;
-      for (int a : {0, 1}) block.functions[a] = functions_across(block, a);
+      for (int a : {0, 1}) block.functions[a] = functions_.of(block.first_node, a);
+      block.is_uniform = functions_.is_uniform(block.functions[0]) &&
+                         (setup.strip || functions_.is_uniform(block.functions[1]));
     }
     for (std::size_t p = 0; p < setup.count; ++p) {
       const int number = place_of(setup.points[p]).number(stride_);
@@ -129,13 +135,14 @@ class Cells {
 
   /// Adds the particles of a block that are no longer in their cells to a list.
   [[gnu::noinline]] void list_movers(const Block& block, std::vector<Address>& list) const {
-    for (int lane = 0; lane < width; ++lane)
-      for (int k = 0; k < block.count[lane]; ++k) {
-        const Slot& slot = slots(block)[static_cast<std::size_t>(k)];
-        bool stays = true;
-        for (const Lanes& s : slot.s) stays &= s[lane] >= 0 && s[lane] < 1;
-        if (!stays) list.push_back({block.first_node / width, lane, k});
-      }
+    for (int k = 0; const Slot& slot : slots(block)) {
+      const auto& [s, t] = slot.s;
+      const Mask left = !((s >= 0) & (s < 1) & (t >= 0) & (t < 1));
+      if (left.any())
+        for (int lane = 0; lane < width; ++lane)
+          if (left[lane]) list.push_back({block.first_node / width, lane, k});
+      ++k;
+    }
   }
 
   /// Puts particles that left their cell into the one where they are, around periodic sides. `movers` in the
@@ -332,28 +339,9 @@ class Cells {
 
   static Slot empty_slot() { return {{0.5, 0.5}, {0, 0}, 0, 0}; }
 
-  /// The functions of a block's cells along an axis. Most blocks share theirs with others.
-  const Lanes* functions_across(const Block& block, int a) {
-    const int size = (degree_ + 1) * (degree_ + 2);
-    std::vector<Lanes> across(static_cast<std::size_t>(size));
-    for (int m = 0; m < size; ++m)
-      for (int lane = 0; lane < width; ++lane)
-        across[static_cast<std::size_t>(m)][lane] =
-            axis_[static_cast<std::size_t>(a)].functions[cell_along(block.first_node + lane, a) * size + m];
-    for (const auto& known : functions_)
-      if (std::memcmp(known.data(), across.data(), across.size() * sizeof(Lanes)) == 0) return known.data();
-    functions_.push_back(std::move(across));
-    return functions_.back().data();
-  }
-
-  /// Numbers that belong to no cell take the nearest, so that their arithmetic stays harmless.
-  [[nodiscard]] int cell_along(int number, int a) const {
-    return std::min(a == 0 ? number % stride_ : number / stride_,
-                    axis_[static_cast<std::size_t>(a)].cells - 1);
-  }
-
   std::array<LineOfCells, 2> axis_;
-  int stride_, degree_;
+  int stride_;
+  BlockFunctions functions_;
   bool is_affine_;
   LargeArray<Block> blocks_;
   LargeArray<Slot> slots_;  // of one block after another
@@ -362,7 +350,6 @@ class Cells {
   LargeArray<Names> names_;
   std::size_t most_slots_ = 0;
   std::size_t end_ = 0;  // of the slots that blocks have reserved
-  std::vector<std::vector<Lanes>> functions_;
 };
 
 }  // namespace mpm::MPM_ISA

@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "solver/kernel/cell_field.hpp"
+#include "solver/kernel/cell_dilatation.hpp"
 #include "solver/kernel/cell_stress.hpp"
 #include "solver/kernel/nodal_fields.hpp"
 #include "solver/kernel/node_sums.hpp"
@@ -57,7 +57,7 @@ class LaneKernel final : public Kernel {
       each_block(part.cells, [&](const Block& block) {
         const auto stress = cells_.stresses(block).begin();
         strain<no_fetch>(block, part, v_i, dt, pressure,
-                         [&](int k, const Slot&, const Strained& strained, const CellWeights<Basis>&) {
+                         [&](int k, const Slot&, const Strained& strained, const auto&) {
                            stress[k] = stress_of(strained, law, pressure, 1);
                          });
       });
@@ -75,12 +75,11 @@ class LaneKernel final : public Kernel {
   void update_stress_and_accelerate(const Part& part, const double b[2], double dt) override {
     with_fluid([&]<class Pressure>(const auto& law, const Pressure& pressure) {
       scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
-        CellForces<Pressure> forces{sums};
-        strain<fetch_by_forces>(
-            block, part, fields_.velocity(), dt, pressure,
-            [&](int, const Slot& p, const Strained& strained, const CellWeights<Basis>& n_p) {
-              forces.add(n_p, stress_of(strained, law, pressure, force_factor(p)));
-            });
+        CellForces<Basis, Pressure> forces{sums};
+        strain<fetch_by_forces>(block, part, fields_.velocity(), dt, pressure,
+                                [&](int, const Slot& p, const Strained& strained, const auto& n_p) {
+                                  forces.add(n_p, stress_of(strained, law, pressure, force_factor(p)));
+                                });
         forces.finish(basis_, block);
       });
     });
@@ -162,17 +161,18 @@ class LaneKernel final : public Kernel {
     const auto sum = [&](const auto& velocity_of) {
       scatter<MomentumSums<Basis, with_mass>>(part, nodes, [&](const Block& block, auto& sums) {
         if (with_mass && part.ahead > 0) fields_.fetch(block.first_node + part.ahead);
-        each_slot<no_fetch>(block, part, [&](int k, const Slot& p, const CellWeights<Basis>& n_p) {
-          sums.add(n_p, p.mass, velocity_of(block, k, p));
+        each_slot<no_fetch>(block, part, [&](int k, const Slot& p, const auto& n_p) {
+          sums.add(n_p, p.mass, velocity_of(block, k, p, n_p));
         });
       });
     };
     if (cells_.is_affine())
-      sum([&](const Block& block, int k, const Slot& p) {
-        return AffineVelocity<Basis>(block, p, cells_.affines(block)[static_cast<std::size_t>(k)]);
+      sum([&]<class Weights>(const Block& block, int k, const Slot& p, const Weights&) {
+        return AffineVelocity<Basis, Weights::is_uniform>(block, p,
+                                                          cells_.affines(block)[static_cast<std::size_t>(k)]);
       });
     else
-      sum([](const Block&, int, const Slot& p) -> const auto& { return p.v; });
+      sum([](const Block&, int, const Slot& p, const auto&) -> const auto& { return p.v; });
   }
 
   /// Strain rates from the nodal velocity, volumes V (1 + dt tr D), then visit(k, slot, strained, weights).
@@ -184,8 +184,9 @@ class LaneKernel final : public Kernel {
     const CellVelocityGradient<Basis> grad_v(basis_, block, v_i);
     Lanes least_volume = 0;
     [[maybe_unused]] CellStrain of_cell{0, 0};
-    if constexpr (Pressure::is_of_cell) of_cell = strain_cells(block, grad_v, dt, pressure, least_volume);
-    const auto strain_slot = [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
+    if constexpr (Pressure::is_of_cell)
+      of_cell = strain_cells(basis_, block, cells_.slots(block), grad_v, dt, pressure, least_volume);
+    const auto strain_slot = [&](int k, Slot& p, const auto& n_p) {
       const auto [d_00, d_01] = grad_v[0].at(n_p);
       const auto [d_10, d_11] = grad_v[1].at(n_p);
       strained[k] = {d_00, d_11, d_01 + d_10, 0};
@@ -198,72 +199,24 @@ class LaneKernel final : public Kernel {
         least_volume = least(least_volume, p.volume);
       }
     };
-    each_slot<fetch>(block, part, strain_slot, [&](int k, const Slot& p, const CellWeights<Basis>& n_p) {
-      visit(k, p, strained[k], n_p);
-    });
+    // Two loops, although the second makes the weights anew: what waits for the divisions and powers of one
+    // slot would hold up the sums of the next.
+    each_slot<fetch>(block, part, strain_slot);
+    each_slot<no_fetch>(block, part,
+                        [&](int k, const Slot& p, const auto& n_p) { visit(k, p, strained[k], n_p); });
     share.least_volume = least(share.least_volume, least_volume);
-  }
-
-  /// Of the cells of a block: divergence at their centres [1/s] and density after dt [kg/m3].
-  struct CellStrain {
-    Lanes dilatation, density;
-  };
-  /// Their particles' mass over their volume, which grows with the divergence at the centre
-  /// (solver/material/cell_dilatation.hpp); the particles take it, unless dt = 0. A cell is a lane, so
-  /// nothing is exchanged.
-  CellStrain strain_cells(const Block& block, const CellVelocityGradient<Basis>& grad_v, double dt,
-                          const CellTaitPressure& pressure, Lanes& least_volume) {
-    Lanes mass = 0, volume = 0;
-    for (const Slot& p : cells_.slots(block)) {
-      mass += p.mass;
-      volume += p.volume;
-    }
-    const CellWeights<Basis> centre = centre_of_cells(basis_, block);
-    const Lanes dilatation = grad_v[0].at(centre).d_0 + grad_v[1].at(centre).d_1;
-    volume = volume * (1 + dt * dilatation);
-    least_volume = least(least_volume, volume);
-    const Lanes density = at_least(mass / select(mass > 0, volume, 1), pressure.least_density);
-    if (dt > 0)
-      for (Slot& p : cells_.slots(block)) p.volume = p.mass / select(p.mass > 0, density, 1);
-    return {dilatation, density};
   }
 
   /// -V_p: times sigma_p grad N_ip it is the particle's share of f_i (paper Eq. 17); V_p = m_p/rho_p.
   static Lanes force_factor(const Slot& p) { return 0 - p.volume; }
-
-  /// What the stress of a block's particles gives to the nodes of their cells. With a pressure of cells the
-  /// mean stress acts at their centres.
-  template <class Pressure>
-  struct CellForces {
-    DivergenceSums<Basis>& sums;
-    Lanes tension = 0;
-
-    void add(const CellWeights<Basis>& n_p, Stress stress) {
-      if constexpr (Pressure::is_of_cell) {
-        const Lanes mean = 0.5 * (stress.s_00 + stress.s_11);
-        tension += mean;
-        stress.s_00 -= mean;
-        stress.s_11 -= mean;
-      }
-      sums.add(n_p, stress);
-    }
-    void finish(const Basis& basis, const Block& block) {
-      if constexpr (Pressure::is_of_cell) sums.add(centre_of_cells(basis, block), {tension, tension, 0});
-    }
-  };
-
-  static CellWeights<Basis> centre_of_cells(const Basis& basis, const Block& block) {
-    const Lanes middle[2] = {0.5, 0.5};
-    return CellWeights<Basis>(basis, block, middle);
-  }
 
   /// f_i of the stress that the particles have.
   template <class Pressure>
   void accelerate_with_stress(const Part& part) {
     scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
       const auto stress = cells_.stresses(block).begin();
-      CellForces<Pressure> forces{sums};
-      each_slot<fetch_by_forces>(block, part, [&](int k, const Slot& p, const CellWeights<Basis>& n_p) {
+      CellForces<Basis, Pressure> forces{sums};
+      each_slot<fetch_by_forces>(block, part, [&](int k, const Slot& p, const auto& n_p) {
         forces.add(n_p, force_factor(p) * stress[k]);
       });
       forces.finish(basis_, block);
@@ -297,9 +250,9 @@ class LaneKernel final : public Kernel {
       const CellVelocity<Basis> v(basis_, block, fields_.velocity());
       const CellVelocity<Basis> a(basis_, block, fields_.acceleration());
       Lanes energy = 0, lowest = 0, highest = 0;
-      const auto take = [&]([[maybe_unused]] int k, Slot& p, const CellWeights<Basis>& n_p) {
+      const auto take = [&]<class Weights>([[maybe_unused]] int k, Slot& p, const Weights& n_p) {
         if constexpr (taken == Take::Affine) {
-          const CellMoments<Basis> m_p(basis_, block, p, n_p);
+          const CellMoments<Basis, Weights::is_uniform> m_p(basis_, block, p, n_p);
           Affine& affine = cells_.affines(block)[static_cast<std::size_t>(k)];
           for (int c : {0, 1}) {
             const auto u = v[c].affinely_at(n_p, m_p);
@@ -314,7 +267,7 @@ class LaneKernel final : public Kernel {
         }
         energy += p.v[0] * p.v[0] + p.v[1] * p.v[1];
       };
-      const auto move = [&](int, Slot& p, const CellWeights<Basis>& n_p) {
+      const auto move = [&](int, Slot& p, const auto& n_p) {
         for (int c : {0, 1}) {
           const Lanes of_grid = taken == Take::Affine ? p.v[c] : v[c].at(n_p);
           p.s[c] = select(p.mass > 0, p.s[c] + cells_a_step[c] * of_grid, p.s[c]);
@@ -361,12 +314,14 @@ class LaneKernel final : public Kernel {
   void each_slot(const Block& block, const Part& part, F&& f) {
     constexpr std::size_t sixth = sizeof(Slot) / 6, end = (fetch.first + fetch.sixths) * sixth;
     const std::ptrdiff_t ahead = part.ahead * bytes_a_cell_;
-    for (int k = 0; Slot & p : cells_.slots(block)) {
-      if (fetch.sixths > 0 && ahead > 0)
-        for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
-          fetch_ahead(reinterpret_cast<const char*>(&p) + ahead + byte);
-      f(k++, p, CellWeights<Basis>(basis_, block, p.s));
-    }
+    with_weights(basis_, block, [&](const auto& weights) {
+      for (int k = 0; Slot & p : cells_.slots(block)) {
+        if (fetch.sixths > 0 && ahead > 0)
+          for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
+            fetch_ahead(reinterpret_cast<const char*>(&p) + ahead + byte);
+        f(k++, p, weights(p.s));
+      }
+    });
   }
 
   /// `first` of every slot, and `second`. The weights of the bilinear basis are nothing but places in the
@@ -378,7 +333,7 @@ class LaneKernel final : public Kernel {
       each_slot<fetch>(block, part, first);
       each_slot<no_fetch>(block, part, second);
     } else {
-      each_slot<fetch>(block, part, [&](int k, Slot& p, const CellWeights<Basis>& n_p) {
+      each_slot<fetch>(block, part, [&](int k, Slot& p, const auto& n_p) {
         first(k, p, n_p);
         second(k, p, n_p);
       });

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "solver/grid/grid.hpp"
-#include "solver/kernel/sweep.hpp"
+#include "solver/kernel/threads/sweep.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace mpm {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/kernel/thread_team.hpp"
+#include "solver/kernel/threads/thread_team.hpp"
 #include "solver/scene/seeding.hpp"
 #include "solver/simulation.hpp"
 #include "solver/sph/neighbourhood.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "solver/kernel/full_mass/lattice.hpp"
-#include "solver/kernel/thread_team.hpp"
+#include "solver/kernel/threads/thread_team.hpp"
 
 namespace mpm::MPM_ISA {
 

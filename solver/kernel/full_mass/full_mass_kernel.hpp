@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "solver/kernel/kernel.hpp"
-#include "solver/kernel/thread_team.hpp"
+#include "solver/kernel/threads/thread_team.hpp"
 
 namespace mpm {
 

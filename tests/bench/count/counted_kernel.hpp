@@ -10,7 +10,7 @@
 
 #include "solver/grid/axis.hpp"
 #include "solver/kernel/lane_kernel.hpp"
-#include "solver/kernel/sweep.hpp"
+#include "solver/kernel/threads/sweep.hpp"
 #include "solver/lanes/lane_particles.hpp"
 
 namespace bench {

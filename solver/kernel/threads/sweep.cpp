@@ -1,4 +1,4 @@
-#include "solver/kernel/sweep.hpp"
+#include "solver/kernel/threads/sweep.hpp"
 
 #include <algorithm>
 

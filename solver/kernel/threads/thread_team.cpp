@@ -1,4 +1,4 @@
-#include "solver/kernel/thread_team.hpp"
+#include "solver/kernel/threads/thread_team.hpp"
 
 #include <system_error>
 
