@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <variant>
+
 #include "solver/kernel/cells.hpp"
 
 namespace mpm::MPM_ISA {
@@ -23,6 +26,23 @@ Stress stress_of(const Strained& p, const Law& law, const Pressure& pressure, La
   isotropic = factor * isotropic;
   mu = factor * mu;
   return {2 * mu * p.d_00 + isotropic, 2 * mu * p.d_11 + isotropic, mu * p.shear};
+}
+
+/// Sets the stress of the slots of a block [Pa], whatever their basis: a function, so that passes need not be
+/// compiled for every fluid.
+template <class Pressure>
+using StressPass = void (*)(const Rheology&, const Pressure&, std::span<const Strained>, Stress*);
+template <class Pressure>
+StressPass<Pressure> stress_pass_of(const Rheology& rheology) {
+  return std::visit(
+      []<class Law>(const Law&) -> StressPass<Pressure> {
+        return [](const Rheology& of, const Pressure& pressure, std::span<const Strained> strained,
+                  Stress* stress) {
+          const Law law = *std::get_if<Law>(&of);
+          for (const Strained& p : strained) *stress++ = stress_of(p, law, pressure, 1);
+        };
+      },
+      rheology);
 }
 
 }  // namespace mpm::MPM_ISA

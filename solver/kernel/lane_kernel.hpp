@@ -1,9 +1,7 @@
 #pragma once
 
-#include <variant>
-
 #include "solver/kernel/cell_dilatation.hpp"
-#include "solver/kernel/cell_stress.hpp"
+#include "solver/kernel/kernel_fluid.hpp"
 #include "solver/kernel/nodal_fields.hpp"
 #include "solver/kernel/node_sums.hpp"
 
@@ -17,10 +15,7 @@ class LaneKernel final : public Kernel {
       : cells_(setup, setup.axis[0].cells + setup.degree),
         basis_{{setup.axis[0].inverse_h, setup.axis[1].inverse_h}, cells_.stride()},
         fields_(fields_of(setup)),
-        rheology_(setup.rheology),
-        pressure_(setup.pressure),
-        has_pressure_(setup.has_pressure),
-        has_cell_pressure_(setup.has_cell_pressure),
+        fluid_(setup),
         most_inverse_mass_(setup.most_inverse_mass),
         shares_(static_cast<std::size_t>(setup.shares)) {
     make_room();
@@ -53,19 +48,18 @@ class LaneKernel final : public Kernel {
 
   void update_stress(const Part& part, NodalVelocity from, double dt) override {
     const Pair v_i = from == NodalVelocity::Current ? fields_.velocity() : fields_.mapped();
-    with_fluid([&](const auto& law, const auto& pressure) {
+    fluid_.with_stress<stress_is_inlined>([&](const auto& pressure, const auto& stress_of) {
       each_block(part.cells, [&](const Block& block) {
-        const auto stress = cells_.stresses(block).begin();
-        strain<no_fetch>(block, part, v_i, dt, pressure,
-                         [&](int k, const Slot&, const Strained& strained, const auto&) {
-                           stress[k] = stress_of(strained, law, pressure, 1);
-                         });
+        Stress* const stress = cells_.stresses(block).data();
+        const auto strained = strain<no_fetch>(block, part, v_i, dt, pressure);
+        const auto stress_at = stress_of(strained, stress);
+        for (std::size_t k = 0; k < strained.size(); ++k) stress[k] = stress_at(k, 1);
       });
     });
   }
 
   void accelerate(const Part& part, const double b[2], double dt) override {
-    if (has_cell_pressure_)
+    if (fluid_.has_cell_pressure())
       accelerate_with_stress<CellTaitPressure>(part);
     else
       accelerate_with_stress<TaitPressure>(part);
@@ -73,16 +67,14 @@ class LaneKernel final : public Kernel {
   }
 
   void update_stress_and_accelerate(const Part& part, const double b[2], double dt) override {
-    with_fluid([&]<class Pressure>(const auto& law, const Pressure& pressure) {
-      scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
-        CellForces<Basis, Pressure> forces{sums};
-        strain<fetch_by_forces>(block, part, fields_.velocity(), dt, pressure,
-                                [&](int, const Slot& p, const Strained& strained, const auto& n_p) {
-                                  forces.add(n_p, stress_of(strained, law, pressure, force_factor(p)));
-                                });
-        forces.finish(basis_, block);
-      });
-    });
+    fluid_.with_stress<stress_is_inlined>(
+        [&]<class Pressure>(const Pressure& pressure, const auto& stress_of) {
+          Stress* const room = shares_[static_cast<std::size_t>(part.share)].stress.data();
+          scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
+            const auto strained = strain<fetch_by_forces>(block, part, fields_.velocity(), dt, pressure);
+            sum_forces<no_fetch, Pressure>(block, part, stress_of(strained, room), sums);
+          });
+        });
     accelerate_nodes(part.complete, b, dt);
   }
 
@@ -121,6 +113,7 @@ class LaneKernel final : public Kernel {
 
  private:
   using Pair = NodalFields::Pair;
+  static constexpr bool stress_is_inlined = Basis::degree == 1;
 
   /// Part of a slot, in sixths of its size. The passes of a step share out what has to come from memory as
   /// they share out its time, so that memory is busy all along: the first fetches nodes, the others slots.
@@ -134,11 +127,15 @@ class LaneKernel final : public Kernel {
     Lanes energy = 0, least_volume = 0;  // that its particles were found to have
     std::vector<Address> left;           // particles no longer in their cells
     std::vector<Strained> strained;      // of one block at a time
+    std::vector<Stress> stress;          // the same
   };
 
   void make_room() {
     bytes_a_cell_ = cells_.bytes_a_cell();
-    for (Share& share : shares_) share.strained.resize(cells_.most_slots());
+    for (Share& share : shares_) {
+      share.strained.resize(cells_.most_slots());
+      share.stress.resize(cells_.most_slots());
+    }
   }
 
   [[nodiscard]] NodalFields fields_of(const KernelSetup& setup) const {
@@ -175,10 +172,10 @@ class LaneKernel final : public Kernel {
       sum([](const Block&, int, const Slot& p, const auto&) -> const auto& { return p.v; });
   }
 
-  /// Strain rates from the nodal velocity, volumes V (1 + dt tr D), then visit(k, slot, strained, weights).
-  template <Fetch fetch, class Pressure, class Visit>
-  void strain(const Block& block, const Part& part, const Pair& v_i, double dt, const Pressure& pressure,
-              Visit&& visit) {
+  /// Strain rates of a block's slots from the nodal velocity, volumes V (1 + dt tr D).
+  template <Fetch fetch, class Pressure>
+  std::span<const Strained> strain(const Block& block, const Part& part, const Pair& v_i, double dt,
+                                   [[maybe_unused]] const Pressure& pressure) {
     Share& share = shares_[static_cast<std::size_t>(part.share)];
     Strained* const strained = share.strained.data();
     const CellVelocityGradient<Basis> grad_v(basis_, block, v_i);
@@ -199,27 +196,31 @@ class LaneKernel final : public Kernel {
         least_volume = least(least_volume, p.volume);
       }
     };
-    // Two loops, although the second makes the weights anew: what waits for the divisions and powers of one
-    // slot would hold up the sums of the next.
     each_slot<fetch>(block, part, strain_slot);
-    each_slot<no_fetch>(block, part,
-                        [&](int k, const Slot& p, const auto& n_p) { visit(k, p, strained[k], n_p); });
     share.least_volume = least(share.least_volume, least_volume);
+    return {strained, cells_.slots(block).size()};
   }
 
-  /// -V_p: times sigma_p grad N_ip it is the particle's share of f_i (paper Eq. 17); V_p = m_p/rho_p.
-  static Lanes force_factor(const Slot& p) { return 0 - p.volume; }
+  /// What the slots of a block give to the nodes of their cells: -V_p sigma_p grad N_ip is a particle's share
+  /// of f_i (paper Eq. 17); V_p = m_p/rho_p. stress_at(k, factor): of the k-th slot, times a factor.
+  template <Fetch fetch, class Pressure, class StressAt>
+  void sum_forces(const Block& block, const Part& part, const StressAt& stress_at,
+                  DivergenceSums<Basis>& sums) {
+    CellForces<Basis, Pressure> forces{sums};
+    each_slot<fetch>(block, part, [&](int k, const Slot& p, const auto& n_p) {
+      forces.add(n_p, stress_at(static_cast<std::size_t>(k), 0 - p.volume));
+    });
+    forces.finish(basis_, block);
+  }
 
   /// f_i of the stress that the particles have.
   template <class Pressure>
   void accelerate_with_stress(const Part& part) {
     scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
-      const auto stress = cells_.stresses(block).begin();
-      CellForces<Basis, Pressure> forces{sums};
-      each_slot<fetch_by_forces>(block, part, [&](int k, const Slot& p, const auto& n_p) {
-        forces.add(n_p, force_factor(p) * stress[k]);
-      });
-      forces.finish(basis_, block);
+      const auto stress_at = [stress = cells_.stresses(block).data()](std::size_t k, Lanes factor) {
+        return factor * stress[k];
+      };
+      sum_forces<fetch_by_forces, Pressure>(block, part, stress_at, sums);
     });
   }
 
@@ -340,27 +341,10 @@ class LaneKernel final : public Kernel {
     }
   }
 
-  /// f(law, pressure) with the scene's own: which they are is asked once a pass, not once a particle.
-  template <class F>
-  void with_fluid(F&& f) const {
-    std::visit(
-        [&](const auto& law) {
-          if (has_cell_pressure_)
-            f(law, pressure_);
-          else if (has_pressure_)
-            f(law, static_cast<const TaitPressure&>(pressure_));
-          else
-            f(law, NoPressure{});
-        },
-        rheology_);
-  }
-
   Cells cells_;
   Basis basis_;
   NodalFields fields_;
-  Rheology rheology_;
-  CellTaitPressure pressure_;
-  bool has_pressure_, has_cell_pressure_;
+  KernelFluid fluid_;
   double most_inverse_mass_;
   std::vector<Share> shares_;
   std::ptrdiff_t bytes_a_cell_ = 0;  // of slots
