@@ -67,7 +67,7 @@ fuzz-sanitized: packages
 faults: configure
 	cmake --build $(BUILD) --target plant-faults
 	$(BUILD)/tests/plant-faults tests/faults/faults.list . $(BUILD)-faults/source
-	cmake -S $(BUILD)-faults/source -B $(BUILD)-faults -DCMAKE_BUILD_TYPE=Release -DMPM_NATIVE_KERNELS=OFF \
+	cmake -S $(BUILD)-faults/source -B $(BUILD)-faults -DCMAKE_BUILD_TYPE=Release -DMPM_NATIVE_KERNELS=OFF -DMPM_UNITY=OFF \
 	  -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 	cmake --build $(BUILD)-faults --target mpm-verify unit_tests
 	sh tests/faults/run-faults $(BUILD)-faults $(RESULTS)-faults

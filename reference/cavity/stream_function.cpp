@@ -22,8 +22,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_iterations = 40;
-constexpr double tolerance = 1e-11;  // largest change of a coefficient; psi is some 0.1
+constexpr int most_newton_steps = 40;
+constexpr double newton_tolerance = 1e-11;  // largest change of a coefficient; psi is some 0.1
 
 /// The functions of an axis at the Gauss points of one of its spans.
 struct Span {
@@ -196,9 +196,9 @@ CavityStreamFunction::CavityStreamFunction(const CavityViscosity& viscosity, con
   all.block(2, n - 2, n - 4, 1).setConstant(-axis_.width(axis_.spans() - 1) / axis_.degree());
   Equations equations(axis_, viscosity);
   coefficients_ = std::move(all);
-  for (iterations_ = 1; iterations_ <= most_iterations; ++iterations_) {
+  for (iterations_ = 1; iterations_ <= most_newton_steps; ++iterations_) {
     const double change = equations.improve(coefficients_);
-    if (change < tolerance) return;
+    if (change < newton_tolerance) return;
     if (!std::isfinite(change)) break;
   }
   throw std::runtime_error("Newton's method does not find the stream function of the cavity");

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "reference/channel/ierfc.hpp"
 #include "reference/require.hpp"
 
 namespace reference {
@@ -53,10 +54,6 @@ double decaying_sum(int first, int stride, double s, Amplitude amplitude) {
 /// there.
 int image_count(double height, double d) {
   return 2 + static_cast<int>(std::sqrt(-std::log(kNegligible)) * d / height);
-}
-
-double ierfc(double x) {
-  return std::exp(-x * x) / std::sqrt(pi) - x * std::erfc(x);
 }
 
 double i2erfc(double x) {

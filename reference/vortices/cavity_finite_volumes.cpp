@@ -12,8 +12,8 @@
 namespace reference {
 namespace {
 
-constexpr double tolerance = 2e-8;
-constexpr int most_iterations = 300;
+constexpr double sweep_tolerance = 2e-8;
+constexpr int most_sweeps = 300;
 
 /// Cubic through four neighbours of an array of places (i + offset) h.
 std::array<double, 4> cubic_weights(double s) {  // s in [0, 1] between the second and the third
@@ -26,7 +26,7 @@ std::array<double, 4> cubic_weights(double s) {  // s in [0, 1] between the seco
 /// One substitution: coefficients from the last velocities, then the linear system for the next.
 class CavityEquations {
  public:
-  CavityEquations(const CavityViscosity& viscosity, CavityFiniteVolumes& flow)
+  CavityEquations(const ViscosityOfRate& viscosity, CavityFiniteVolumes& flow)
       : viscosity_(viscosity), flow_(flow), n_(flow.cells_), h_(1.0 / n_) {}
 
   /// Largest change of a velocity.
@@ -191,7 +191,7 @@ class CavityEquations {
     }
   }
 
-  const CavityViscosity& viscosity_;
+  const ViscosityOfRate& viscosity_;
   CavityFiniteVolumes& flow_;
   int n_;
   double h_;
@@ -202,7 +202,7 @@ class CavityEquations {
   bool analysed_ = false;
 };
 
-CavityFiniteVolumes::CavityFiniteVolumes(const CavityViscosity& viscosity, int cells,
+CavityFiniteVolumes::CavityFiniteVolumes(const ViscosityOfRate& viscosity, int cells,
                                          const CavityFiniteVolumes* coarser)
     : cells_(cells),
       u_(static_cast<std::size_t>((cells + 1) * cells), 0.0),
@@ -221,10 +221,10 @@ CavityFiniteVolumes::CavityFiniteVolumes(const CavityViscosity& viscosity, int c
         u_[static_cast<std::size_t>(i + (cells + 1) * j)] = (j + 0.5) * h * (3 * (j + 0.5) * h - 2);
   }
   CavityEquations equations(viscosity, *this);
-  for (int k = 0; k < most_iterations; ++k) {
+  for (int k = 0; k < most_sweeps; ++k) {
     between_steps();
     const double change = equations.substitute();
-    if (change < tolerance) return;
+    if (change < sweep_tolerance) return;
     if (!std::isfinite(change)) break;
   }
   throw std::runtime_error("the finite volumes of the cavity did not come to rest");
@@ -258,7 +258,7 @@ double CavityFiniteVolumes::velocity(int component, double x, double y) const {
   return sum;
 }
 
-std::vector<CavityLine> cavity_centre_lines(const CavityViscosity& viscosity, int coarsest) {
+std::vector<CavityLine> cavity_centre_lines(const ViscosityOfRate& viscosity, int coarsest) {
   const CavityFiniteVolumes coarse(viscosity, coarsest), middle(viscosity, 2 * coarsest, &coarse),
       fine(viscosity, 4 * coarsest, &middle);
   std::vector<CavityLine> lines;

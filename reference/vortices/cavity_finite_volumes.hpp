@@ -8,7 +8,7 @@
 namespace reference {
 
 /// Kinematic viscosity against the shear rate, in units of U L and U/L.
-using CavityViscosity = std::function<double(double)>;
+using ViscosityOfRate = std::function<double(double)>;
 
 /// The steady flow of a generalised Newtonian fluid in a unit square whose lid, y = 1, moves with unit
 /// velocity along x, by finite volumes of second order on a staggered mesh (Harlow & Welch 1965) of n x n
@@ -19,7 +19,7 @@ class CavityFiniteVolumes {
  public:
   /// Starts from another mesh's solution where one is given. Throws std::runtime_error where the iteration
   /// does not come to rest.
-  CavityFiniteVolumes(const CavityViscosity& viscosity, int cells,
+  CavityFiniteVolumes(const ViscosityOfRate& viscosity, int cells,
                       const CavityFiniteVolumes* coarser = nullptr);
 
   /// u (component 0) or v (1) at a point of the unit square, by cubic interpolation between its places on the
@@ -40,6 +40,6 @@ struct CavityLine {
 };
 
 /// By Richardson extrapolation with the formal order 2 from meshes of n, 2 n and 4 n cells.
-std::vector<CavityLine> cavity_centre_lines(const CavityViscosity& viscosity, int coarsest);
+std::vector<CavityLine> cavity_centre_lines(const ViscosityOfRate& viscosity, int coarsest);
 
 }  // namespace reference

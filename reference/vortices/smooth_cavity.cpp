@@ -130,11 +130,11 @@ VectorXd among(const VectorXd& coefficients, int few, int more) {
   return all;
 }
 
-constexpr int most_iterations = 30;
+constexpr int most_smooth_iterations = 30;
 
 VectorXd solution(double nu, int functions, VectorXd guess) {
   const Square square(functions);
-  for (int k = 0; k < most_iterations; ++k) {
+  for (int k = 0; k < most_smooth_iterations; ++k) {
     between_steps();
     const VectorXd step = square.step(guess, nu);
     guess += step;

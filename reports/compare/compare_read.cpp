@@ -1,21 +1,19 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "reports/compare/compare.hpp"
 #include "reports/files/csv.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/records/directory/bench_file.hpp"
+#include "reports/records/not_a_number.hpp"
 #include "reports/records/report_data.hpp"
 
 namespace reports {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// The names in the first line of a file.
 std::vector<std::string> header_of(const fs::path& file) {
   std::string content = read_file(file);

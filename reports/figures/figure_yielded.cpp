@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -11,11 +10,10 @@
 #include "reports/figures/figures.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/records/directory/run_files.hpp"
+#include "reports/records/not_a_number.hpp"
 
 namespace reports {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Grid velocities of a run on a lattice of (n + 1)^2 points, and what follows from them.
 struct Lattice {

@@ -78,7 +78,7 @@ std::string claim_section(const std::vector<ClaimRecord>& claims) {
   return text;
 }
 
-std::string rate_table(const RateTable& table) {
+std::string rate_table_markdown(const RateTable& table) {
   std::string text =
       fmt::format("\n{}: {}, {}, norm {}\n\n| {} |", markdown_text(table.variant), table.axis,
                   markdown_text(table.location), norm_symbol(table.norm), step_symbol(table.axis));
@@ -124,7 +124,7 @@ std::string order_section(const Results& results) {
     }
     if (tables.empty() || tables.size() > most_rows) continue;
     text += "\n<details><summary>Errors and rates</summary>\n";
-    for (const RateTable& table : tables) text += rate_table(table);
+    for (const RateTable& table : tables) text += rate_table_markdown(table);
     text += "\n</details>\n";
   }
   return text.empty() ? "" : "\n## Orders of convergence\n" + text;

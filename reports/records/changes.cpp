@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <map>
+
+#include "reports/records/not_a_number.hpp"
 
 namespace reports {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char *earlier_file = "provenance.json", *earlier_verdict = "before";
 
 }  // namespace

@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "reports/files/csv.hpp"
 #include "reports/pages/html/page.hpp"
 #include "reports/pages/report_markdown.hpp"
+#include "reports/records/not_a_number.hpp"
 #include "reports/records/report_data.hpp"
 
 namespace reports {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double component_of(const ErrorRecord& error, const std::string& norm) {
   return norm == "l1" ? error.l1 : norm == "linf" ? error.linf : error.l2;
@@ -25,7 +23,7 @@ double cost_of(const CostPoint& point, bool by_wall) {
   return by_wall ? point.wall : point.particle_steps;
 }
 
-const char* const explanation =
+const char* const work_precision_explanation =
     "Cheapest timed run of a flow and fluid whose L2 error on the grid is below the target at every output "
     "time: "
     "wall time of the simulation (fastest repetition after a warm-up, nothing else running), scheme, cells "
@@ -114,7 +112,7 @@ std::string html_cheapest(const Results& results) {
     rows += "</tr>\n";
   }
   return "<section>\n<h3 id=\"cheapest\">Cheapest way to an error</h3>\n" + html_table(head, rows) +
-         "<p class=\"faint\">" + std::string(explanation) + "</p>\n</section>\n";
+         "<p class=\"faint\">" + std::string(work_precision_explanation) + "</p>\n</section>\n";
 }
 
 std::string markdown_cheapest(const Results& results) {
@@ -131,7 +129,8 @@ std::string markdown_cheapest(const Results& results) {
       rows += " " + (point.run ? markdown_text(described(point)) : "-") + " |";
     rows += "\n";
   }
-  return "\n## Cheapest way to an error\n\n" + head + "\n" + rule + "\n" + rows + "\n" + explanation + "\n";
+  return "\n## Cheapest way to an error\n\n" + head + "\n" + rule + "\n" + rows + "\n" +
+         work_precision_explanation + "\n";
 }
 
 }  // namespace reports

@@ -21,16 +21,16 @@ std::pair<double, double> legendre(int n, double z) {
 }
 
 /// Positions [m] and masses per length, relative to density, of all particles along one axis.
-struct Row {
+struct LineOfParticles {
   std::vector<double> position, length;
 };
 
-Row row_along(const Scene& scene, int axis) {
+LineOfParticles row_along(const Scene& scene, int axis) {
   const auto a = static_cast<std::size_t>(axis);
   const int n = scene.particles_per_cell[a];
   const double total = scene.size[axis];
   const CellPoints points = cell_points(scene.seeding.rule[a], n);
-  Row row;
+  LineOfParticles row;
   for (int cell = 0; cell < scene.cells[a]; ++cell)
     for (std::size_t k = 0; k < points.position.size(); ++k) {
       const double x = (cell + points.position[k]) * total / scene.cells[a];
@@ -78,7 +78,7 @@ CellPoints cell_points(Seeding::Rule rule, int n) {
 }
 
 Particles seed_particles(const Scene& scene) {
-  const Row along_x = row_along(scene, 0), along_y = row_along(scene, 1);
+  const LineOfParticles along_x = row_along(scene, 0), along_y = row_along(scene, 1);
   const Vec2 reach =
       scene.seeding.displacement * Vec2(scene.size.x() / static_cast<double>(along_x.position.size()),
                                         scene.size.y() / static_cast<double>(along_y.position.size()));

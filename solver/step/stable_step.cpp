@@ -9,9 +9,9 @@ namespace {
 
 /// By stepping: stress first (and modified last), stress last, leapfrog.
 using Limits = std::array<StableStep, 3>;
-enum Row { FlipRow, PicRow, ApicRow, FullMassRow, Rows };
+enum TransferRow { FlipRow, PicRow, ApicRow, FullMassRow, TransferRows };
 /// By basis and transfer.
-using Table = std::array<std::array<Limits, Rows>, 3>;
+using Table = std::array<std::array<Limits, TransferRows>, 3>;
 
 // Predicted by verification/stability, rounded down to four digits.
 constexpr Table one_particle = {{
@@ -55,7 +55,7 @@ std::size_t column(Scheme::Stepping stepping) {
   }
 }
 
-StableStep entry(const Table& table, const Scheme& scheme, Row row) {
+StableStep entry(const Table& table, const Scheme& scheme, TransferRow row) {
   return table[static_cast<std::size_t>(scheme.basis)][row][column(scheme.stepping)];
 }
 

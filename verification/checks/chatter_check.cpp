@@ -16,13 +16,13 @@ namespace {
 constexpr double noticeable = 0.25;
 
 /// The index of a power law from its flow curve.
-double index_of(const FluidConfig& fluid) {
+double power_law_index(const FluidConfig& fluid) {
   return 1 + std::log2(fluid.viscosity_ratio(2) / fluid.viscosity_ratio(1));
 }
 
 double critical_shear_rate(const CheckSpec& spec, const SceneConfig& scene) {
   return verification::critical_shear_rate(spec.stability_limit, scene.cell_size(), scene.segments.front().dt,
-                                           scene.fluid.kinematic_viscosity, index_of(scene.fluid));
+                                           scene.fluid.kinematic_viscosity, power_law_index(scene.fluid));
 }
 
 void read_chatter(TomlTable& table, const Study& study, CheckSpec& spec) {
@@ -33,7 +33,7 @@ void read_chatter(TomlTable& table, const Study& study, CheckSpec& spec) {
   spec.stability_limit = table.positive("stability_limit");
   for (const PlannedRun& run : study.runs) {
     if (std::ranges::count(spec.variants, run.variant) == 0 && run.variant != spec.against) continue;
-    if (!run.scene.fluid.label.starts_with("power-law") || index_of(run.scene.fluid) >= 1)
+    if (!run.scene.fluid.label.starts_with("power-law") || power_law_index(run.scene.fluid) >= 1)
       table.fail("kind", "\"chatter\" is for power laws with an index below 1 (run " + run.run + ")");
     for (const double t : spec.times)
       if (std::ranges::count(run.scene.outputs, t) == 0)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "verification/checks/chatter_check.hpp"
 #include "verification/checks/check_keys.hpp"
@@ -12,6 +11,7 @@
 #include "verification/checks/shift_check.hpp"
 #include "verification/checks/stability_checks.hpp"
 #include "verification/convergence/order_remark.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/measures.hpp"
 #include "verification/runs/scheme_matrix.hpp"
 
@@ -19,8 +19,6 @@ namespace verification {
 namespace {
 
 using Records = std::vector<reports::CheckRecord>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 // ---- error: a relative error norm at each time
 
 void read_error(TomlTable& table, const Study& study, CheckSpec& spec) {

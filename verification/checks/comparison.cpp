@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "verification/not_a_number.hpp"
 #include "verification/runs/measures.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A sample in the flow's own frame.
 struct Sample {

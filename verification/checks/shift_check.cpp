@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "verification/checks/check_keys.hpp"
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// The first table of a study that measures a quantity.
 const MeasurementTable* table_with(const Study& study, const std::string& quantity) {

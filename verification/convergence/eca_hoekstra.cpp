@@ -7,12 +7,12 @@
 #include <stdexcept>
 
 #include "verification/convergence/root.hpp"
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kOrderLimit = 12.0;  // an order beyond it is no order of a scheme
 constexpr double kOrderStep = 0.02;   // of the scan; the sum of squares varies over Delta p of about 1
 
@@ -187,14 +187,14 @@ EcaHoekstraResult eca_hoekstra(const std::vector<double>& steps, const std::vect
   if (i >= steps.size()) throw std::invalid_argument("eca_hoekstra: there is no such level");
 
   if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); })) {
-    return {Convergence::Invalid, kNaN, {}, kNaN, kNaN, kNaN, kNaN, kNaN};
+    return {Convergence::Invalid, nan, {}, nan, nan, nan, nan, nan};
   }
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   if (*least == *greatest) {
     GridFit constant;
     constant.limit = values.back();
     constant.finest_step = steps.back();
-    return {Convergence::Floor, kNaN, constant, 0.0, 3.0, 0.0, 0.0, 0.0};
+    return {Convergence::Floor, nan, constant, 0.0, 3.0, 0.0, 0.0, 0.0};
   }
 
   const ScaledLadder equal = scale_ladder(steps, values, false);
@@ -208,7 +208,7 @@ EcaHoekstraResult eca_hoekstra(const std::vector<double>& steps, const std::vect
   EcaHoekstraResult result;
   result.convergence = candidates.empty() ? Convergence::Divergent : Convergence::Monotone;
   if (!candidates.empty()) result.fit = smaller_sigma(candidates);
-  const double p = candidates.empty() ? kNaN : result.fit.exponents[0];
+  const double p = candidates.empty() ? nan : result.fit.exponents[0];
   result.observed_order = p;
   if (!(p >= 0.5 && p <= formal_order)) {
     candidates.clear();

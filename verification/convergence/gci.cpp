@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 /// |difference / value|, NaN for a value of zero.
 double relative(double difference, double value) {
-  return value == 0.0 ? kNaN : std::abs(difference / value);
+  return value == 0.0 ? nan : std::abs(difference / value);
 }
 
 bool converges(Convergence c) {
@@ -23,7 +22,7 @@ bool converges(Convergence c) {
 /// Order of a triplet (fine 1, medium 2, coarse 3); NaN if a difference is zero or not finite.
 double triplet_order(double r21, double r32, double e21, double e32) {
   const double ratio = e32 / e21;
-  if (!std::isfinite(ratio) || ratio == 0.0) return kNaN;
+  if (!std::isfinite(ratio) || ratio == 0.0) return nan;
   return three_grid_order(r21, r32, std::abs(ratio), ratio > 0.0 ? 1 : -1);
 }
 
@@ -50,10 +49,10 @@ GciResult grid_convergence_index(const std::vector<double>& steps, const std::ve
   result.ratio = e21 / e32;
   result.observed_order = triplet_order(r21, r32, e21, e32);
   if (!converges(result.convergence)) {
-    result.used_order = result.safety_factor = result.extrapolated = kNaN;
-    result.relative_error = result.extrapolated_error = kNaN;
-    result.gci_fine = result.gci_coarse = kNaN;
-    result.uncertainty = result.uncertainty_coarse = result.asymptotic_ratio = kNaN;
+    result.used_order = result.safety_factor = result.extrapolated = nan;
+    result.relative_error = result.extrapolated_error = nan;
+    result.gci_fine = result.gci_coarse = nan;
+    result.uncertainty = result.uncertainty_coarse = result.asymptotic_ratio = nan;
     return result;
   }
 
@@ -97,7 +96,7 @@ OrderSequence observed_orders(const std::vector<double>& steps, const std::vecto
     sequence.orders.push_back(converges(c)
                                   ? triplet_order(steps[k + 1] / steps[k + 2], steps[k] / steps[k + 1],
                                                   values[k + 1] - values[k + 2], values[k] - values[k + 1])
-                                  : kNaN);
+                                  : nan);
   }
   for (std::size_t k = 1; k < sequence.orders.size(); ++k) {
     const double step = std::abs(sequence.orders[k] - sequence.orders[k - 1]);

@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "verification/convergence/root.hpp"
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -94,7 +92,7 @@ double centred_dot(const std::vector<double>& a, const std::vector<double>& b) {
 
 /// An estimate with flags set, levels at the floor dropped, and nothing fitted yet.
 OrderEstimate drop_floor(const std::vector<double>& errors, const OrderOptions& options) {
-  OrderEstimate estimate{Convergence::Invalid, kNaN, kNaN, kNaN, false, kNaN, {}, {}, 0};
+  OrderEstimate estimate{Convergence::Invalid, nan, nan, nan, false, nan, {}, {}, 0};
   estimate.used.assign(errors.size(), false);
   if (!all_finite(errors)) return estimate;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -223,7 +221,7 @@ OrderEstimate estimate_order(const std::vector<double>& steps, const std::vector
     const bool defined =
         std::isfinite(errors[i]) && std::isfinite(errors[i + 1]) && errors[i] > 0.0 && errors[i + 1] > 0.0;
     estimate.pairwise.push_back(
-        defined ? (std::log(errors[i]) - std::log(errors[i + 1])) / std::log(steps[i] / steps[i + 1]) : kNaN);
+        defined ? (std::log(errors[i]) - std::log(errors[i + 1])) / std::log(steps[i] / steps[i + 1]) : nan);
   }
   if (!needs_fit(estimate)) return estimate;
 
@@ -260,7 +258,7 @@ OrderEstimate estimate_order_from_differences(const std::vector<double>& steps,
     const double ratio = differences[i] / differences[i + 1];
     const bool defined = std::isfinite(ratio) && ratio > 0.0;
     estimate.pairwise.push_back(
-        defined ? three_grid_order(steps[i + 1] / steps[i + 2], steps[i] / steps[i + 1], ratio, 1) : kNaN);
+        defined ? three_grid_order(steps[i + 1] / steps[i + 2], steps[i] / steps[i + 1], ratio, 1) : nan);
   }
   if (!needs_fit(estimate)) return estimate;
 

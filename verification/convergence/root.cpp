@@ -7,11 +7,11 @@
 #include <limits>
 #include <memory>
 
+#include "verification/not_a_number.hpp"
+
 namespace verification {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double call(double x, void* function) {
   return (*static_cast<const std::function<double(double)>*>(function))(x);
@@ -24,7 +24,7 @@ double find_root(const std::function<double(double)>& function, double guess, do
     const double root = find_root_between(function, guess - width, guess + width);
     if (!std::isnan(root)) return root;
   }
-  return kNaN;
+  return nan;
 }
 
 double find_root_between(const std::function<double(double)>& function, double lower, double upper) {
@@ -34,15 +34,15 @@ double find_root_between(const std::function<double(double)>& function, double l
   if (at_upper == 0.0) return upper;
   // GSL would call its error handler, which aborts by default, for a bracket without a sign change.
   if (!std::isfinite(at_lower) || !std::isfinite(at_upper) || (at_lower < 0.0) == (at_upper < 0.0))
-    return kNaN;
+    return nan;
 
   gsl_function target{&call, const_cast<std::function<double(double)>*>(&function)};
   const std::unique_ptr<gsl_root_fsolver, decltype(&gsl_root_fsolver_free)> solver(
       gsl_root_fsolver_alloc(gsl_root_fsolver_brent), &gsl_root_fsolver_free);
-  if (gsl_root_fsolver_set(solver.get(), &target, lower, upper) != GSL_SUCCESS) return kNaN;
+  if (gsl_root_fsolver_set(solver.get(), &target, lower, upper) != GSL_SUCCESS) return nan;
   constexpr int most_iterations = 200;
   for (int i = 0; i < most_iterations; ++i) {
-    if (gsl_root_fsolver_iterate(solver.get()) != GSL_SUCCESS) return kNaN;
+    if (gsl_root_fsolver_iterate(solver.get()) != GSL_SUCCESS) return nan;
     const double a = gsl_root_fsolver_x_lower(solver.get());
     const double b = gsl_root_fsolver_x_upper(solver.get());
     constexpr double epsilon = std::numeric_limits<double>::epsilon();

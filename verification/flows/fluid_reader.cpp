@@ -80,8 +80,8 @@ Model read_bingham(TomlTable& table, double nu, double density, int cells) {
   return read_yielding(table, nu, density, cells, 1);
 }
 
-using Reader = Model (*)(TomlTable&, double, double, int);
-const std::vector<std::pair<std::string, Reader>> readers = {
+using ModelReader = Model (*)(TomlTable&, double, double, int);
+const std::vector<std::pair<std::string, ModelReader>> model_readers = {
     {"newtonian", read_newtonian},
     {"cross", read_cross},
     {"power-law", read_power_law},
@@ -90,10 +90,10 @@ const std::vector<std::pair<std::string, Reader>> readers = {
     {"bingham", read_bingham},
 };
 
-Reader reader_of(TomlTable& table) {
+ModelReader reader_of(TomlTable& table) {
   const std::string model = table.text("model", "newtonian");
   std::string known;
-  for (const auto& [name, read] : readers) {
+  for (const auto& [name, read] : model_readers) {
     if (name == model) return read;
     known += (known.empty() ? "" : ", ") + name;
   }
@@ -111,7 +111,7 @@ bool is_incompressible(TomlTable& fluid) {
 
 FluidConfig read_fluid(TomlTable table, int cells, bool needs_no_modulus) {
   FluidConfig fluid;
-  const Reader read_model = reader_of(table);
+  const ModelReader read_model = reader_of(table);
   fluid.kinematic_viscosity = table.positive("kinematic_viscosity");
   fluid.solver.density = table.positive("density", 1000);
   fluid.incompressible = is_incompressible(table);

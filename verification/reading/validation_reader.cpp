@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "verification/config/config_error.hpp"
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 UncertainInput read_input(TomlTable& table) {
   UncertainInput input;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -12,12 +11,12 @@
 #include "verification/convergence/gci.hpp"
 #include "verification/convergence/norms.hpp"
 #include "verification/flows/grid_of_values.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/foreign/pairing.hpp"
 
 namespace verification {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const char* const norm_names[] = {"l1", "l2", "linf"};
 
 Norms norms_or_nan(const std::vector<Eigen::Vector2d>& errors, double scale) {

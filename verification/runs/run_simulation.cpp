@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "reference/compressible/tait_column.hpp"
 #include "solver/incompressible/make_incompressible_solver.hpp"
@@ -13,13 +12,12 @@
 #include "solver/material/pressure.hpp"
 #include "solver/simulation.hpp"
 #include "solver/sph/make_sph_solver.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/interruption.hpp"
 #include "verification/runs/surface_record.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Takes samples of a running simulation.
 class Recorder {

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "verification/config/config_error.hpp"
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Smallest usable error of the ladder behind an order.
 double smallest_error(const StudyData& data, const reports::OrderRecord& order) {

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
+#include "verification/not_a_number.hpp"
 #include "verification/runs/measures.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double final_error(const RunData& run, const std::string& location) {
   const double end = run.plan->scene.outputs.back();

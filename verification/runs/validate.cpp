@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
+#include "verification/not_a_number.hpp"
 #include "verification/validation/bias_scatter.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 const RunData& only_run(const StudyData& data, const std::string& variant) {
   return *std::ranges::find_if(data.runs, [&](const RunData& run) { return run.plan->variant == variant; });

@@ -11,7 +11,7 @@ namespace verification {
 namespace {
 
 /// Vortices whose advection pressure balances: of no use to a scene without any.
-void require_pressure(const TomlTable& table, const FluidConfig& fluid) {
+void require_vortex_pressure(const TomlTable& table, const FluidConfig& fluid) {
   if (!fluid.solver.pressure && !fluid.incompressible)
     table.fail("flow",
                "a vortex needs fluid.pressure = true or \"incompressible\": pressure balances its advection");
@@ -21,7 +21,7 @@ void require_pressure(const TomlTable& table, const FluidConfig& fluid) {
 
 FlowPointer read_taylor_green(TomlTable& table, const FluidConfig& fluid) {
   const double nu = newtonian_viscosity(table, fluid);
-  require_pressure(table, fluid);
+  require_vortex_pressure(table, fluid);
   TaylorGreenFlowParameters p{table.positive("period"), table.positive("amplitude"), nu, fluid.solver};
   if (!fluid.incompressible && p.amplitude >= 0.5 * p.fluid.sound_speed())
     table.fail("amplitude",
@@ -48,7 +48,7 @@ FlowPointer read_cavity(TomlTable& table, const FluidConfig& fluid) {
 }
 
 FlowPointer read_walled_vortex(TomlTable& table, const FluidConfig& fluid) {
-  require_pressure(table, fluid);
+  require_vortex_pressure(table, fluid);
   reference::WalledVortexParameters p;
   p.kinematic_viscosity = newtonian_viscosity(table, fluid);
   p.side = table.positive("side");
@@ -58,7 +58,7 @@ FlowPointer read_walled_vortex(TomlTable& table, const FluidConfig& fluid) {
 }
 
 FlowPointer read_double_shear_layer(TomlTable& table, const FluidConfig& fluid) {
-  require_pressure(table, fluid);
+  require_vortex_pressure(table, fluid);
   DoubleShearLayerParameters p;
   p.period = table.positive("period");
   p.amplitude = table.positive("amplitude");

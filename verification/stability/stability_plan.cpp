@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "verification/config/config_error.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/scene/matrix.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Rays are followed up to here: beyond every explicit limit (r <= 4, CFL <= 3) by a factor ten. What is
 // stable there is said to have no limit up to it.

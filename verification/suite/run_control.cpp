@@ -4,19 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/process/child.hpp"
 #include "reports/records/directory/result_files.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/interruption.hpp"
 
 namespace verification {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// Seconds that a control may take; the shipped ones take less than a tenth of one.
 constexpr double longest = 600;
 

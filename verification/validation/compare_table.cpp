@@ -6,6 +6,7 @@
 
 #include "verification/convergence/eca_hoekstra.hpp"
 #include "verification/convergence/gci.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/validation/area_metric.hpp"
 #include "verification/validation/bias_scatter.hpp"
 #include "verification/validation/comparison_error.hpp"
@@ -13,8 +14,6 @@
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A simulated value with what is uncertain in it, in the unit of the table.
 struct Simulated {

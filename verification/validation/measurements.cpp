@@ -19,7 +19,7 @@ struct RawRow {
   std::string quantity, t, x, y, value, uncertainty, shared, unit, note;
 };
 
-constexpr auto columns = std::make_tuple(                  //
+constexpr auto measured_columns = std::make_tuple(         //
     reports::column("quantity", &RawRow::quantity),        //
     reports::column("t", &RawRow::t),                      //
     reports::column("x", &RawRow::x),                      //
@@ -169,10 +169,11 @@ MeasurementTable read_measurements(const std::filesystem::path& file) {
   const bool shares =
       text.content.substr(0, text.content.find('\n')).find("shared_uncertainty") != std::string::npos;
   const auto rows =
-      shares ? reports::read_csv(text, file,
-                                 std::tuple_cat(columns, std::make_tuple(reports::column("shared_uncertainty",
-                                                                                         &RawRow::shared))))
-             : reports::read_csv(text, file, columns);
+      shares ? reports::read_csv(
+                   text, file,
+                   std::tuple_cat(measured_columns,
+                                  std::make_tuple(reports::column("shared_uncertainty", &RawRow::shared))))
+             : reports::read_csv(text, file, measured_columns);
   for (std::size_t i = 0; i < rows.size(); ++i)
     table.rows.push_back(measurement(table, rows[i], text.line_of(static_cast<unsigned>(i) + 2)));
   if (table.rows.empty()) fail_at(file, 1, "no measurement: a comparison with nothing proves nothing");

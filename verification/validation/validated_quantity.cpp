@@ -10,17 +10,17 @@
 namespace verification {
 namespace {
 
-using Row = reports::ProfileRow;
+using ValidatedRow = reports::ProfileRow;
 
 /// Samples of one time on the points of a lattice.
 struct Lattice {
   std::vector<double> x, y;
-  std::vector<const Row*> rows;  // x runs fastest
+  std::vector<const ValidatedRow*> rows;  // x runs fastest
 
-  [[nodiscard]] const Row& at(std::size_t i, std::size_t j) const { return *rows[j * x.size() + i]; }
+  [[nodiscard]] const ValidatedRow& at(std::size_t i, std::size_t j) const { return *rows[j * x.size() + i]; }
 };
 
-std::vector<double> distinct(std::vector<double> values) {
+std::vector<double> distinct_values(std::vector<double> values) {
   std::ranges::sort(values);
   const double same = 1e-9 * std::max(std::abs(values.front()), std::abs(values.back()));
   std::vector<double> kept;
@@ -32,7 +32,7 @@ std::vector<double> distinct(std::vector<double> values) {
 Lattice lattice_at(const RunFiles& run, double t) {
   Lattice lattice;
   std::vector<double> xs, ys, times;
-  for (const Row& row : *run.profile) {
+  for (const ValidatedRow& row : *run.profile) {
     if (row.location != "grid") continue;
     times.push_back(row.t);
     if (std::abs(row.t - t) > 1e-9 * t) continue;
@@ -50,8 +50,8 @@ Lattice lattice_at(const RunFiles& run, double t) {
                     "is interpolated or extrapolated in time",
                     t, first, last));
   }
-  lattice.x = distinct(xs);
-  lattice.y = distinct(ys);
+  lattice.x = distinct_values(xs);
+  lattice.y = distinct_values(ys);
   if (lattice.x.size() * lattice.y.size() != lattice.rows.size())
     throw std::invalid_argument(
         "the run's grid samples do not fill a lattice of lines x and y; write them on one");
@@ -63,7 +63,7 @@ Lattice lattice_at(const RunFiles& run, double t) {
     const bool nearer_above = above != lines.end() && *above - value < value - *below;
     return (nearer_above ? above : below) - lines.begin();
   };
-  std::ranges::sort(lattice.rows, {}, [&](const Row* row) {
+  std::ranges::sort(lattice.rows, {}, [&](const ValidatedRow* row) {
     return std::pair(line_of(lattice.y, row->y), line_of(lattice.x, row->x));
   });
   return lattice;
@@ -98,8 +98,8 @@ Interpolation interpolation(const std::vector<double>& lines, double value, cons
 }
 
 /// The sample of the grid field at a place, where there is one; null where there is none.
-const Row* sample_at(const RunFiles& run, const Whereabouts& where) {
-  for (const Row& row : *run.profile)
+const ValidatedRow* sample_at(const RunFiles& run, const Whereabouts& where) {
+  for (const ValidatedRow& row : *run.profile)
     if (row.location == "grid" && std::abs(row.t - where.t) <= 1e-9 * where.t &&
         std::abs(row.x - where.x) <= 1e-9 * std::abs(where.x) &&
         std::abs(row.y - where.y) <= 1e-9 * std::abs(where.y))
@@ -107,8 +107,8 @@ const Row* sample_at(const RunFiles& run, const Whereabouts& where) {
   return nullptr;
 }
 
-double field(const RunFiles& run, const Whereabouts& where, double Row::*component) {
-  if (const Row* sample = sample_at(run, where)) return sample->*component;
+double field(const RunFiles& run, const Whereabouts& where, double ValidatedRow::*component) {
+  if (const ValidatedRow* sample = sample_at(run, where)) return sample->*component;
   const Lattice lattice = lattice_at(run, where.t);
   const Interpolation across = interpolation(lattice.y, where.y, "y");
   const Interpolation along =
@@ -178,9 +178,9 @@ double reached(const RunFiles& run, const Whereabouts& where, double reports::Su
 
 constexpr std::array<ValidatedQuantity, 8> quantities = {{
     {"u", "m/s", true, false, 1, 0,
-     [](const RunFiles& r, const Whereabouts& w) { return field(r, w, &Row::u); }},
+     [](const RunFiles& r, const Whereabouts& w) { return field(r, w, &ValidatedRow::u); }},
     {"v", "m/s", true, false, 1, 0,
-     [](const RunFiles& r, const Whereabouts& w) { return field(r, w, &Row::v); }},
+     [](const RunFiles& r, const Whereabouts& w) { return field(r, w, &ValidatedRow::v); }},
     {"flow-rate", "m2/s", false, false, 1, 1,
      [](const RunFiles& r, const Whereabouts& w) { return flow_rate(lattice_at(r, w.t)); }},
     {"mean-velocity", "m/s", false, false, 1, 0,

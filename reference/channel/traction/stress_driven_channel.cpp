@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "reference/channel/ierfc.hpp"
 #include "reference/require.hpp"
 
 namespace reference {
@@ -13,10 +14,6 @@ namespace {
 using std::numbers::pi;
 
 constexpr double negligible = 1e-18;
-
-double ierfc(double x) {
-  return std::exp(-x * x) / std::sqrt(pi) - x * std::erfc(x);
-}
 
 }  // namespace
 

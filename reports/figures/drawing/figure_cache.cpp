@@ -26,11 +26,11 @@ std::string packed(const std::string& key, const std::string& svg, const std::st
   return fmt::format("{}{} {} {}\n{}{}", key, content_name(svg + png), svg.size(), png.size(), svg, png);
 }
 
-struct Images {
+struct KeptImages {
   std::string svg, png;
 };
 
-std::optional<Images> unpacked(const std::string& key, const std::string& bytes) {
+std::optional<KeptImages> unpacked(const std::string& key, const std::string& bytes) {
   if (!bytes.starts_with(key)) return std::nullopt;
   const std::size_t end = bytes.find('\n', key.size());
   if (end == bytes.npos) return std::nullopt;
@@ -44,7 +44,7 @@ std::optional<Images> unpacked(const std::string& key, const std::string& bytes)
   if (sizes[0] > images.size() || sizes[1] != images.size() - sizes[0] ||
       content_name(images) != head.substr(0, first))
     return std::nullopt;
-  return Images{images.substr(0, sizes[0]), images.substr(sizes[0])};
+  return KeptImages{images.substr(0, sizes[0]), images.substr(sizes[0])};
 }
 
 void prune(const fs::path& directory) {

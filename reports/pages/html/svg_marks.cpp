@@ -9,7 +9,7 @@
 namespace reports {
 namespace {
 
-struct Mark {
+struct SvgMark {
   std::string shape, colour;
   double x = 0, y = 0, scale = 0;
 };
@@ -25,7 +25,7 @@ std::optional<std::string_view> between(std::string_view text, std::string_view 
 }
 
 /// The mark that begins at `at`, which then moves behind it; nothing for any other element.
-std::optional<Mark> read_mark(std::string_view svg, std::size_t& at) {
+std::optional<SvgMark> read_mark(std::string_view svg, std::size_t& at) {
   std::size_t end = at;
   const auto shape = between(svg, "<use href=\"", "\"", end);
   if (!shape) return std::nullopt;
@@ -35,13 +35,13 @@ std::optional<Mark> read_mark(std::string_view svg, std::size_t& at) {
   const auto colour = scale ? between(svg, " color=\"", "\"/>", end) : std::nullopt;
   if (!colour) return std::nullopt;
   const auto number = [](std::string_view text) { return std::strtod(std::string(text).c_str(), nullptr); };
-  Mark mark{std::string(*shape), std::string(*colour), number(*x), number(*y), number(*scale)};
+  SvgMark mark{std::string(*shape), std::string(*colour), number(*x), number(*y), number(*scale)};
   if (!(mark.scale > 0)) return std::nullopt;
   at = end;
   return mark;
 }
 
-bool alike(const Mark& a, const Mark& b) {
+bool alike(const SvgMark& a, const SvgMark& b) {
   return a.shape == b.shape && a.colour == b.colour && a.scale == b.scale;
 }
 
@@ -54,12 +54,12 @@ std::string gathered_marks(const std::string& svg) {
     result += svg.substr(at, next - at);
     if (next == svg.npos) break;
     at = next;
-    std::optional<Mark> mark = read_mark(svg, at);
+    std::optional<SvgMark> mark = read_mark(svg, at);
     if (!mark) {
       result += svg[at++];
       continue;
     }
-    const Mark first = *mark;
+    const SvgMark first = *mark;
     result += fmt::format("<g transform=\"scale({:g})\" color=\"{}\">", first.scale, first.colour);
     while (mark && alike(*mark, first)) {
       result += fmt::format("<use href=\"{}\" x=\"{:.4g}\" y=\"{:.4g}\"/>", mark->shape,

@@ -10,7 +10,7 @@
 namespace reports {
 namespace {
 
-const char* const scope =
+const char* const validation_scope =
     "A verdict speaks of these quantities at these places and times, within the inputs' stated "
     "uncertainties, at "
     "coverage k. \"Agrees\" means that no model error could be seen above k u_val: there may be one up to "
@@ -107,7 +107,7 @@ std::string html_validation(const Results& results, const Chapter& chapter, Page
          "numerics (orange), inputs (blue) and data (green) in u<sub>val</sub>². A prediction has no E: S ± "
          "k u. "
          "Borne: the largest model error, or uncertainty of a prediction, that the study accepts.</p>\n" +
-         text + "<p>" + html_text(scope) + "</p>\n</section>\n";
+         text + "<p>" + html_text(validation_scope) + "</p>\n</section>\n";
 }
 
 }  // namespace reports

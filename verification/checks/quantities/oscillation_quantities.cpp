@@ -1,16 +1,14 @@
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "verification/checks/quantities/oscillation.hpp"
 #include "verification/checks/quantities/quantity_entries.hpp"
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::optional<Oscillation> free_oscillation(const RunData& run) {
   const auto expected = run.plan->scene.flow->oscillation();

@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "verification/checks/quantities/quantity_entries.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/measures.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<const reports::StateRow*> states_at(const RunData& run, double t, const char* location) {
   std::vector<const reports::StateRow*> rows;

@@ -1,14 +1,12 @@
 #include <cmath>
-#include <limits>
 
 #include "reports/summaries/work_precision.hpp"
 #include "verification/checks/quantities/probe_history.hpp"
 #include "verification/checks/quantities/quantity_entries.hpp"
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double settling_time(const RunData& run) {
   const double steady = run.plan->scene.flow->steady_probe();

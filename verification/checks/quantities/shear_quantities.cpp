@@ -4,11 +4,10 @@
 
 #include "verification/checks/quantities/quantity_entries.hpp"
 #include "verification/checks/quantities/shear_cells.hpp"
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double in_cell(const std::vector<double>& cells, double place) {
   if (cells.empty()) return nan;

@@ -3,12 +3,11 @@
 #include <limits>
 
 #include "verification/checks/quantities/quantity_entries.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/measures.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Largest coordinate along an axis of the particles with x < below, to the edge of what a particle fills.
 double reach(const RunData& run, double t, int axis, double below) {

@@ -1,14 +1,12 @@
 #include <cmath>
-#include <limits>
 
 #include "verification/checks/quantities/probe_history.hpp"
 #include "verification/checks/quantities/quantity_entries.hpp"
 #include "verification/checks/quantities/shear_cells.hpp"
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 using History = std::vector<reports::HistoryRow>;
 

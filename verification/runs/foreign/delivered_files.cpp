@@ -5,13 +5,13 @@
 
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "reports/files/csv.hpp"
 #include "reports/files/io_error.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/foreign/delivery.hpp"
 #include "verification/runs/run_simulation.hpp"
 
@@ -19,8 +19,6 @@ namespace verification {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 using Absent = std::vector<std::pair<std::string, std::string>>;  // column, value where it is left out
 
 /// A foreign file without its comments, and with the columns that it may leave out; as a file in `scratch`.

@@ -18,7 +18,7 @@ using Rows = std::vector<const reports::ProfileRow*>;
 /// Widest gap that is borne, in cells: a point a cell, wherever it lies in its cell, leaves gaps below two.
 constexpr double widest_gap = 2;
 /// Rounding of places in somebody's text, in parts of the domain.
-constexpr double rounding = 1e-6;
+constexpr double place_rounding = 1e-6;
 
 std::array<double, 2> place(const reports::ProfileRow& row) {
   return {row.x, row.y};
@@ -49,7 +49,7 @@ long empty_blocks(const Rows& rows, const mpm::Scene& scene) {
 /// Of a flow that is known at the points of a table alone: the first of them that is not among the rows; ""
 /// if they all are.
 std::string missing_point(const Rows& rows, const SceneConfig& config) {
-  const double near = rounding * config.scene.smallest_cell_size();
+  const double near = place_rounding * config.scene.smallest_cell_size();
   for (const Vec2& point : config.flow->tabulated_points())
     if (std::ranges::none_of(rows, [&](const auto* row) {
           return std::hypot(row->x - point.x(), row->y - point.y()) <= near;
@@ -68,7 +68,7 @@ std::string check_group(const Rows& rows, const PlannedRun& plan, const ForeignS
     if (!std::isfinite(row->u) || !std::isfinite(row->v))
       return fmt::format("the velocity at x = {:g}, y = {:g} is not finite", row->x, row->y);
     for (const int axis : {0, 1}) {
-      const double x = place(*row)[static_cast<std::size_t>(axis)], slack = rounding * scene.size[axis];
+      const double x = place(*row)[static_cast<std::size_t>(axis)], slack = place_rounding * scene.size[axis];
       if (!(x >= -slack && x <= scene.size[axis] + slack))
         return fmt::format("the point x = {:g}, y = {:g} lies outside the domain {:g} x {:g} m", row->x,
                            row->y, scene.size.x(), scene.size.y());
@@ -82,7 +82,7 @@ std::string check_group(const Rows& rows, const PlannedRun& plan, const ForeignS
   if (rows.front()->location == name(Location::Grid))
     if (std::string lack = missing_point(rows, config); !lack.empty()) return lack;
   const double cell = scene.size[across] / std::min(needed, config.discretisation.cells);
-  if (const double gap = gap_along(rows, scene, across); gap > widest_gap * cell * (1 + rounding))
+  if (const double gap = gap_along(rows, scene, across); gap > widest_gap * cell * (1 + place_rounding))
     return fmt::format(
         "nothing is delivered over {:.3g} m across the flow; expected no gap wider than two cells, "
         "{:.3g} m",

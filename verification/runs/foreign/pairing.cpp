@@ -9,10 +9,10 @@
 namespace verification {
 namespace {
 
-using Row = const reports::ProfileRow*;
+using RowOfProfile = const reports::ProfileRow*;
 using Bucket = std::pair<std::int64_t, std::int64_t>;
 
-Bucket bucket_of(Row row, double size) {
+Bucket bucket_of(RowOfProfile row, double size) {
   return {static_cast<std::int64_t>(std::floor(row->x / size)),
           static_cast<std::int64_t>(std::floor(row->y / size))};
 }
@@ -24,15 +24,15 @@ double pairing_distance(const SceneConfig& scene, Location location) {
   return location == Location::Grid ? 1e-6 * cell : 0.25 * cell / scene.discretisation.particles_across;
 }
 
-std::vector<Row> paired_by_place(const std::vector<Row>& rows, const std::vector<Row>& others,
-                                 double distance) {
+std::vector<RowOfProfile> paired_by_place(const std::vector<RowOfProfile>& rows,
+                                          const std::vector<RowOfProfile>& others, double distance) {
   if (rows.size() != others.size()) return {};
   std::map<Bucket, std::vector<std::size_t>> buckets;
   const double size = 2 * distance;
   for (std::size_t k = 0; k < others.size(); ++k) buckets[bucket_of(others[k], size)].push_back(k);
   std::vector<char> taken(others.size(), 0);
-  std::vector<Row> paired;
-  for (const Row row : rows) {
+  std::vector<RowOfProfile> paired;
+  for (const RowOfProfile row : rows) {
     const Bucket home = bucket_of(row, size);
     std::size_t nearest = others.size();
     double least = distance;

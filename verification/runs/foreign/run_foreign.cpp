@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "reports/files/io_error.hpp"
 #include "reports/process/child.hpp"
 #include "solver/kernel/isa.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/foreign/delivered_files.hpp"
 #include "verification/runs/foreign/what_decides.hpp"
 #include "verification/runs/interruption.hpp"
@@ -23,8 +23,6 @@ namespace verification {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 std::string replaced(std::string text, const std::string& mark, const std::string& value) {
   for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size()))
     text.replace(at, mark.size(), value);

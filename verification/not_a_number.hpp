@@ -1,0 +1,9 @@
+#pragma once
+
+#include "reports/records/not_a_number.hpp"
+
+namespace verification {
+
+using reports::nan;
+
+}  // namespace verification
