@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/records/time_steps.hpp"
 #include "reports/records/validation.hpp"
 
 // The rows of every result file. Whoever writes these (our driver or somebody else's) can have a report made
@@ -285,6 +286,8 @@ struct Results {
   std::vector<ScoreRecord> scores;
   std::vector<StabilityRecord> stability;
   std::vector<ControlRecord> controls;
+  std::vector<TimeStepRecord> time_steps;
+  std::vector<PilotRecord> pilots;
   std::vector<ValidationRecord> validation;
   std::vector<JointValidationRecord> joint_validation;
   std::vector<ValidationBiasRecord> validation_bias;
