@@ -24,7 +24,7 @@
 #include "verification/runs/interruption.hpp"
 #include "verification/scene/scene_cost.hpp"
 #include "verification/suite/run_suite.hpp"
-#include "verification/suite/settle_steps.hpp"
+#include "verification/suite/steps/settle_steps.hpp"
 
 namespace verification {
 namespace {

@@ -26,7 +26,7 @@ struct SuiteSession {
   std::string command_line;
 };
 
-/// Steps of scenes that say dt = "auto", chosen and said (suite/settle_steps.hpp).
+/// Steps of scenes that say dt = "auto", chosen and said (suite/steps/settle_steps.hpp).
 void settle_and_say(std::vector<Study>& studies, RunCache& cache, int jobs);
 
 /// Settles the steps of the studies, runs them, says how it goes, and writes the report. Returns the exit

@@ -23,8 +23,8 @@
 #include "verification/suite/run_control.hpp"
 #include "verification/suite/run_entry.hpp"
 #include "verification/suite/schedule.hpp"
-#include "verification/suite/settle_steps.hpp"
 #include "verification/suite/slots.hpp"
+#include "verification/suite/steps/settle_steps.hpp"
 
 namespace verification {
 namespace {

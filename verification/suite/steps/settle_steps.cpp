@@ -1,4 +1,4 @@
-#include "verification/suite/settle_steps.hpp"
+#include "verification/suite/steps/settle_steps.hpp"
 
 #include <fmt/format.h>
 
