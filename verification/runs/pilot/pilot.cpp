@@ -24,6 +24,8 @@ constexpr double round_off = 1e-11;
 constexpr long first_parts = 8;
 // Halvings of the longest pilot; then the law is trusted. The last costs as much as all before together.
 constexpr int most_halvings = 6;
+// Noise does not fall with the step: that of a remap grows with the number of them.
+constexpr int most_without_order = 3;
 constexpr int most_on_second_level = 6;
 constexpr double hides_space = 2;  // an error in time of more than twice its share does
 // A run that is to be longer wants another scheme, and a pilot that is costs more than it saves.
@@ -89,88 +91,68 @@ class Pilot {
   /// On the coarsest level: the law of the error in time, and the error in space.
   void search() {
     long parts = first();
-    bool longer = false, shorter = false;
-    for (int halvings = 0; halvings <= most_halvings;) {
-      if (!stands(0, parts) || !stands(0, 2 * parts) || !stands(0, 4 * parts)) {
-        tried_ = dt_of(2 * parts);  // a finer one may not stand either: then it falls again
-        parts *= 2;
-        shorter = true;
-        ++halvings;
-        continue;
-      }
-      const TimeError time =
-          time_error_of(dt_of(parts), difference(trial(0, parts), trial(0, 2 * parts)),
-                        difference(trial(0, 2 * parts), trial(0, 4 * parts)), orders_.time, round_off);
-      if (time.kind == TimeError::Kind::NoOrder) {
-        if (longer) {
-          tried_ = dt_of(2 * parts);
-          return;
-        }
-        parts *= 2;
-        shorter = true;
-        ++halvings;
-        continue;
-      }
-      time_ = time;
-      space_ = space_error(time, parts);
-      pilots_ = {dt_of(parts), dt_of(2 * parts), dt_of(4 * parts)};
-      if (time.kind == TimeError::Kind::Law && !require_space_error()) return;
-      const double wanted =
-          time.kind == TimeError::Kind::Law ? time.law.inverse(fraction_ * *space_) : infinity;
-      if (wanted > dt_of(parts) && !shorter && parts % 2 == 0 &&
-          dt_of(parts / 2) <= stable(coarsest()) * (1 + 1e-9)) {
-        if (!stands(0, parts / 2)) {
-          tried_ = dt_of(parts);
-          return;
-        }
-        parts /= 2;
-        longer = true;
-      } else if (wanted < dt_of(4 * parts) && !longer) {
-        parts *= 2;
-        shorter = true;
-        ++halvings;
-      } else {
+    bool longer = false;
+    for (int halvings = 0; failure_.empty();) {
+      const std::optional<double> wanted = measured(parts);
+      if (longer && !wanted) {
+        tried_ = dt_of(2 * parts);
         return;
       }
+      const bool is_long_enough = wanted && *wanted >= dt_of(4 * parts);
+      if (!is_long_enough && !longer) {
+        if (++halvings > (time_ ? most_halvings : most_without_order)) break;
+        parts *= 2;
+        continue;
+      }
+      const bool may_be_longer = *wanted > dt_of(parts) && halvings == 0 && parts % 2 == 0 &&
+                                 dt_of(parts / 2) <= stable(coarsest()) * (1 + 1e-9);
+      if (!may_be_longer) return;
+      if (!stands(0, parts / 2)) {
+        tried_ = dt_of(parts);
+        return;
+      }
+      parts /= 2;
+      longer = true;
     }
-    if (!time_) accept_without_order();
+    if (!time_ && failure_.empty()) give_up();
+  }
+
+  /// What a step, its half and its quarter say: the longest step that would do (infinite: this one does, and
+  /// no law says how much longer). None where they say nothing.
+  std::optional<double> measured(long parts) {
+    if (!stands(0, parts) || !stands(0, 2 * parts) || !stands(0, 4 * parts)) {
+      tried_ = dt_of(2 * parts);  // a finer one may not stand either: then it falls again
+      return std::nullopt;
+    }
+    const double first = difference(trial(0, parts), trial(0, 2 * parts)),
+                 second = difference(trial(0, 2 * parts), trial(0, 4 * parts));
+    TimeError time = time_error_of(dt_of(parts), first, second, orders_.time, round_off);
+    double space = space_error(time, parts);
+    if (time.kind == TimeError::Kind::NoOrder) {
+      // Whatever its law: what no halving shows to be more than its share is not.
+      space -= first + second;
+      if (!(first + second <= fraction_ * space)) return std::nullopt;
+      time.law = {fraction_ * space / std::pow(dt_of(parts), orders_.time), orders_.time};
+    }
+    if (time.kind != TimeError::Kind::RoundOff && !is_there(space)) return std::nullopt;
+    time_ = time;
+    space_ = space;
+    pilots_ = {dt_of(parts), dt_of(2 * parts), dt_of(4 * parts)};
+    return time.kind == TimeError::Kind::Law ? time.law.inverse(fraction_ * space) : infinity;
   }
 
   /// The error in space must be there for anything to be a fraction of it.
-  bool require_space_error() {
-    if (std::isfinite(*space_) && *space_ > round_off) return true;
+  bool is_there(double space) {
+    if (std::isfinite(space) && space > round_off) return true;
     failure_ = fmt::format(
         "the error in space on {} cells is {:.3g}, no more than round-off: no step makes the "
         "error in time a fraction of that; give dt in s",
-        coarsest().scene.discretisation.cells, *space_);
+        coarsest().scene.discretisation.cells, space);
     return false;
   }
 
-  /// Where halving the step shows no order: the longest step from which on every shorter one gives the
-  /// same result, but for less than the fraction.
-  void accept_without_order() {
+  void give_up() {
     const std::vector<long> standing = runs_.completed(0);
-    if (standing.size() >= 3) {
-      const RunData& finest = trial(0, standing.back());
-      const double error = largest_error(finest);
-      long longest = standing.back();
-      double largest = 0;
-      for (auto parts = standing.rbegin() + 1; parts != standing.rend(); ++parts) {
-        const double change = std::max(largest, difference(trial(0, *parts), finest));
-        if (!(change <= fraction_ * (error - change))) break;
-        largest = change;
-        longest = *parts;
-      }
-      if (longest != standing.back()) {
-        space_ = error - largest;
-        time_ = TimeError{TimeError::Kind::NoOrder, nan, {}};
-        time_->law.order = orders_.time;
-        time_->law.coefficient = fraction_ * *space_ / std::pow(dt_of(longest), orders_.time);
-        tried_ = dt_of(longest);
-        pilots_ = {dt_of(standing.front()), dt_of(standing.back())};
-        return;
-      }
-    }
     failure_ = fmt::format(
         "{}: give dt in s",
         standing.empty()
@@ -291,8 +273,9 @@ class Pilot {
           fmt::format("the error in time is round-off on {} cells: the limits alone bound the step", cells);
     else if (time_->kind == TimeError::Kind::NoOrder)
       text = fmt::format(
-          "no order in time on {} cells from dt = {:.3g} to {:.3g} s; the longest step from which "
-          "on results differ by the fraction at most, and shorter as the error in space falls",
+          "no order in time on {} cells from dt = {:.3g} to {:.3g} s, where results differ by the fraction "
+          "at "
+          "most; shorter as the error in space falls",
           cells, pilots_.front(), pilots_.back());
     else
       text = fmt::format("error in time {:.3g} dt^{:.3g} (order {:.3g} seen, dt = {:.3g} s on {} cells)",

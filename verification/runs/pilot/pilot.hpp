@@ -27,8 +27,8 @@ struct PilotOutcome {
 /// level, bounded by the limits of that level, as a whole part of the interval between outputs.
 ///
 /// A run that diverges is recorded, and no longer step is chosen than one that stood. Where the error in time
-/// is round-off, the limits alone bound the step. Where it has no order, the longest step whose difference to
-/// the finest one stays below the fraction; if there is none, or no error in space, no step is chosen: the
+/// is round-off, the limits alone bound the step. Where it has no order, a step will do whose halves change
+/// the result by less than the fraction; if there is none, or no error in space, no step is chosen: the
 /// records say so, and have the step that the limits give.
 ///
 /// The result depends on nothing but the study and what `run` returns.
