@@ -124,7 +124,8 @@ constexpr auto timing_columns = std::make_tuple(                          //
     column("particle_steps_per_s", &TimingRecord::particle_steps_per_s),  //
     column("repetitions", &TimingRecord::repetitions),                    //
     column("spread", &TimingRecord::spread),                              //
-    column("source", &TimingRecord::source));
+    column("source", &TimingRecord::source),                              //
+    column("clock", &TimingRecord::clock));
 
 constexpr auto figure_columns = std::make_tuple(    //
     column("figure", &FigureRecord::figure),        //
