@@ -19,7 +19,6 @@
 #include "verification/flows/reference_store.hpp"
 #include "verification/reading/figure_reader.hpp"
 #include "verification/runs/foreign/delivered_files.hpp"
-#include "verification/runs/interruption.hpp"
 #include "verification/scene/handed_scene.hpp"
 #include "verification/suite/build_identity.hpp"
 #include "verification/suite/shards/manifest.hpp"
@@ -105,7 +104,6 @@ namespace {
 
 /// A plan holds scenes with numbers in them: what pilots must run for that, runs here.
 void settle_by_cache(std::vector<Study>& studies) {
-  const InterruptionGuard guard;
   RunCache cache(cache_directory(), CacheUse::Reuse);
   settle_and_say(studies, cache, job_count(0));
   cache.prune();
