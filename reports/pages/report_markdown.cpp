@@ -8,6 +8,7 @@
 #include "reports/pages/sections/controls.hpp"
 #include "reports/pages/sections/matrix.hpp"
 #include "reports/pages/sections/stability.hpp"
+#include "reports/pages/sections/time_steps.hpp"
 #include "reports/summaries/scoreboard.hpp"
 #include "reports/summaries/work_precision.hpp"
 
@@ -190,6 +191,7 @@ std::string markdown_report(const ReportData& data) {
   text += markdown_scoreboard(data.results.scores);
   text += markdown_matrix(data.results.matrix);
   text += markdown_cheapest(data.results);
+  text += markdown_time_steps(data.results);
   text += markdown_stability(data.results.stability);
   text += check_section(data.results);
   text += order_section(data.results);

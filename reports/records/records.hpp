@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/records/time_steps.hpp"
 #include "reports/records/validation.hpp"
 
 // The rows of every result file. Whoever writes these (our driver or somebody else's) can have a report made
@@ -129,6 +130,9 @@ struct ControlRecord {
 inline constexpr const char* timing_measured = "measured";  ///< in this run of the suite
 inline constexpr const char* timing_from_cache =
     "cache";  ///< when the run was simulated, in an earlier suite
+inline constexpr const char* clock_simulation = "simulation";  ///< ours, of the simulation alone
+inline constexpr const char* clock_solver = "solver";          ///< a foreign solver's own (run.json)
+inline constexpr const char* clock_process = "process";        ///< ours, of a foreign solver's whole process
 struct TimingRecord {
   std::string run;
   double wall_s = 0;                ///< simulation alone, the fastest repetition [s]
@@ -137,6 +141,7 @@ struct TimingRecord {
   /// (median - fastest)/fastest of the repetitions [-]; NaN for a single one, whose noise is not known
   double spread = std::numeric_limits<double>::quiet_NaN();
   std::string source = timing_measured;
+  std::string clock = clock_simulation;  ///< who measured the time, of what
 };
 
 /// profiles/<run>.csv: velocity at points. location: "grid", "particles", or "exact" (a fine line for
@@ -285,6 +290,8 @@ struct Results {
   std::vector<ScoreRecord> scores;
   std::vector<StabilityRecord> stability;
   std::vector<ControlRecord> controls;
+  std::vector<TimeStepRecord> time_steps;
+  std::vector<PilotRecord> pilots;
   std::vector<ValidationRecord> validation;
   std::vector<JointValidationRecord> joint_validation;
   std::vector<ValidationBiasRecord> validation_bias;

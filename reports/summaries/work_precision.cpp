@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "reports/files/csv.hpp"
 #include "reports/pages/html/page.hpp"
@@ -27,12 +28,25 @@ const char* const work_precision_explanation =
     "Cheapest timed run of a flow and fluid whose L2 error on the grid is below the target at every output "
     "time: "
     "wall time of the simulation (fastest repetition after a warm-up, nothing else running), scheme, cells "
-    "across, nominal dt, particle-steps. A dash: none of the runs made here reaches it.";
+    "across, nominal dt, particle-steps. Other solvers, a row each, ran once, in a study that times ours. A "
+    "dash: none of the runs made here reaches it.";
+
+/// Who measured the time of a foreign run.
+std::string clock_of(const CostPoint& point) {
+  return point.clock == clock_solver ? "time as the solver says itself" : "time of its whole process";
+}
 
 std::string described(const CostPoint& point) {
+  if (point.run->basis == foreign_scheme)
+    return fmt::format("{} s: {} cells, dt {} s; {}", number(point.wall, 3), point.run->cells,
+                       number(point.run->dt, 3), clock_of(point));
   return fmt::format("{} s: {}, {} cells, dt {} s, {} particle-steps", number(point.wall, 3),
                      scheme_of(*point.run), point.run->cells, number(point.run->dt, 3),
                      number(point.particle_steps, 3));
+}
+
+std::string headed(const Cheapest& table) {
+  return table.scene + ", " + table.fluid + (table.solver.empty() ? "" : ", " + table.solver);
 }
 
 }  // namespace
@@ -78,20 +92,29 @@ std::string scheme_of(const RunRecord& run) {
 }
 
 std::vector<Cheapest> cheapest_runs(const Results& results) {
-  std::map<std::string, const TimingRecord*> timed;
+  std::map<std::string, const TimingRecord*> timed, once;
   for (const TimingRecord& timing : results.timings)
-    if (timing.repetitions > 1) timed[timing.run] = &timing;
+    (timing.repetitions > 1 ? timed : once)[timing.run] = &timing;
+  std::set<std::string> studies;
+  for (const RunRecord& run : results.runs)
+    if (timed.contains(run.run)) studies.insert(run.study);
+  for (const RunRecord& run : results.runs)
+    if (const auto timing = once.find(run.run);
+        run.basis == foreign_scheme && studies.contains(run.study) && timing != once.end())
+      timed.insert(*timing);
   std::vector<Cheapest> tables;
   for (const RunRecord& run : results.runs) {
     const auto timing = timed.find(run.run);
     if (timing == timed.end()) continue;
-    auto table = std::ranges::find_if(
-        tables, [&](const Cheapest& c) { return c.scene == run.scene && c.fluid == run.fluid; });
+    const std::string solver = run.basis == foreign_scheme ? run.method : "";
+    auto table = std::ranges::find_if(tables, [&](const Cheapest& c) {
+      return c.scene == run.scene && c.fluid == run.fluid && c.solver == solver;
+    });
     if (table == tables.end())
-      table = tables.insert(
-          tables.end(), {run.scene, run.fluid, std::vector<CostPoint>(error_targets.size(), CostPoint{})});
+      table = tables.insert(tables.end(), {run.scene, run.fluid, solver,
+                                           std::vector<CostPoint>(error_targets.size(), CostPoint{})});
     const CostPoint point{&run, timing->second->wall_s, particle_steps_of(run),
-                          error_of(run, results, "grid", "l2", nan)};
+                          error_of(run, results, "grid", "l2", nan), timing->second->clock};
     for (std::size_t i = 0; i < error_targets.size(); ++i) {
       CostPoint& best = table->runs[i];
       if (point.error <= error_targets[i] && (best.run == nullptr || point.wall < best.wall)) best = point;
@@ -106,7 +129,7 @@ std::string html_cheapest(const Results& results) {
   std::string head = "<th>flow, fluid</th>", rows;
   for (const double target : error_targets) head += "<th>" + number(target) + "</th>";
   for (const Cheapest& table : tables) {
-    rows += "<tr><td>" + html_text(table.scene + ", " + table.fluid) + "</td>";
+    rows += "<tr><td>" + html_text(headed(table)) + "</td>";
     for (const CostPoint& point : table.runs)
       rows += "<td class=\"w\">" + (point.run ? html_text(described(point)) : "-") + "</td>";
     rows += "</tr>\n";
@@ -124,7 +147,7 @@ std::string markdown_cheapest(const Results& results) {
     rule += "---|";
   }
   for (const Cheapest& table : tables) {
-    rows += "| " + markdown_text(table.scene + ", " + table.fluid) + " |";
+    rows += "| " + markdown_text(headed(table)) + " |";
     for (const CostPoint& point : table.runs)
       rows += " " + (point.run ? markdown_text(described(point)) : "-") + " |";
     rows += "\n";

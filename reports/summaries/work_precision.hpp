@@ -14,6 +14,7 @@ struct CostPoint {
   double wall = 0;            ///< [s]; NaN where no time is known
   double particle_steps = 0;  ///< particles times steps
   double error = 0;           ///< relative; NaN for a run that did not complete
+  std::string clock = {};     ///< who measured the wall time (TimingRecord::clock)
 };
 
 /// Relative error norm of a run at time t; at t = NaN the largest of all output times. NaN if the run did not
@@ -30,10 +31,12 @@ double particle_steps_of(const RunRecord& run);
 /// "cubic, full-mass, leapfrog"
 std::string scheme_of(const RunRecord& run);
 
-/// For one flow and fluid: the cheapest timed run whose largest L2 error on the grid, of all output times, is
-/// at most each of the targets; null where none reaches it.
+/// For one flow and fluid, by our solver or by one other: the cheapest timed run whose largest L2 error on
+/// the grid, of all output times, is at most each of the targets; null where none reaches it. Runs of other
+/// solvers are timed once, and count where their study times ours (nothing else runs then).
 struct Cheapest {
   std::string scene, fluid;
+  std::string solver;           ///< somebody else's; "" for ours
   std::vector<CostPoint> runs;  ///< one a target; `run` is null where none reaches it
 };
 extern const std::vector<double> error_targets;  ///< 1e-2, ... 1e-6

@@ -48,12 +48,12 @@ TEST_CASE("the second run of a suite comes from the cache, with the same bytes")
   Ended ended = run_program("run " + file + " --out " + first.string(), environment);
   REQUIRE(ended.code == 0);
   CHECK_THAT(ended.output, contains("runs: 5, of which 0 taken from the cache"));
-  CHECK(count(content_of(first / "timing.csv"), ",measured\n") == 5);
+  CHECK(count(content_of(first / "timing.csv"), ",measured,simulation\n") == 5);
 
   ended = run_program("run " + file + " --jobs 1 --out " + second.string(), environment);
   REQUIRE(ended.code == 0);
   CHECK_THAT(ended.output, contains("runs: 5, of which 5 taken from the cache"));
-  CHECK(count(content_of(second / "timing.csv"), ",cache\n") == 5);
+  CHECK(count(content_of(second / "timing.csv"), ",cache,simulation\n") == 5);
   CHECK(tables(first) == tables(second));
   CHECK(tables(first) == tables(bare));
   CHECK(content_of(first / "figures" / "slow-history.svg") ==

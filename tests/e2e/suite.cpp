@@ -61,7 +61,7 @@ TEST_CASE("a suite writes its tables, the same bytes whatever the jobs, and a re
   CHECK(first_line(content_of(one / "errors.csv")) == "run,t,location,l1,l2,linf,scale,exact_max");
   CHECK(first_line(content_of(one / "checks.csv")) == "study,check,observed,lower,upper,unit,verdict,reason");
   CHECK(first_line(content_of(one / "timing.csv")) ==
-        "run,wall_s,particle_steps_per_s,repetitions,spread,source");
+        "run,wall_s,particle_steps_per_s,repetitions,spread,source,clock");
 
   const auto files_one = tree(one), files_two = tree(two);
   REQUIRE(files_one.size() == files_two.size());

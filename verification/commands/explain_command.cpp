@@ -58,6 +58,11 @@ void print_scene(const Study& study) {
     say("solver      {}: {}\n", run.solver->name,
         run.solver->is_there() ? "results in " + run.solver->results
                                : fmt::format("{}", fmt::join(run.solver->command, " ")));
+  if (scene.auto_step)
+    say("dt          auto: pilot runs on {} cells choose it, error in time {:g} of that in space; costs "
+        "below are "
+        "at {:.3g} s there\n",
+        scene.discretisation.cells, scene.auto_step->fraction, scene.segments.front().dt);
   say("until       {:.6g} s, {} output times\n", scene.outputs.back(), scene.outputs.size());
   say("against     {}\n", compared_with(study));
   if (study.ladder.axis != Axis::None) {

@@ -8,9 +8,11 @@
 #include "verification/commands/commands.hpp"
 #include "verification/commands/output.hpp"
 #include "verification/commands/provenance_of.hpp"
+#include "verification/commands/suite_session.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/flows/reference_store.hpp"
 #include "verification/runs/measures.hpp"
+#include "verification/runs/pilot/fits.hpp"
 #include "verification/runs/run_simulation.hpp"
 #include "verification/scene/scene_cost.hpp"
 
@@ -35,6 +37,24 @@ Study study_of_scene(const SceneOptions& options) {
   study.title = study.claim = planned.scene.flow_name + ", one simulation";
   study.runs.push_back(std::move(planned));
   return study;
+}
+
+/// Refuses dt = "auto" where it cannot be had, before anything is written.
+void require_step(const Study& study, const std::filesystem::path& file) {
+  const SceneConfig& scene = study.runs.front().scene;
+  if (!scene.auto_step) return;
+  if (const std::string why = why_no_step_by_error(study, study.ladder, scene, false); !why.empty())
+    throw ConfigError(file.string() + ": key 'time.dt': " + why);
+}
+
+/// Runs the pilot of a scene with dt = "auto".
+void choose_step(Study& study, const std::filesystem::path& file) {
+  std::vector<Study> one{study};
+  RunCache none({}, CacheUse::Off);
+  settle_and_say(one, none, 1);
+  study = one.front();
+  for (const reports::TimeStepRecord& step : study.time_steps)
+    if (step.bound == reports::no_step) throw ConfigError(file.string() + ": key 'time.dt': " + step.remark);
 }
 
 reports::FigureRecord figure_of(const Study& study, const std::string& kind, const std::string& title) {
@@ -64,11 +84,13 @@ void write_interchange(const std::filesystem::path& out, const RunData& data) {
 }  // namespace
 
 int solve_command(const SceneOptions& options) {
-  const Study study = study_of_scene(options);
-  const SceneConfig& scene = study.runs.front().scene;
+  Study study = study_of_scene(options);
+  require_step(study, options.scene);
   const reports::ResultDirectory ours(options.out, options.force);
   reports::ensure_directory(options.out / "profiles");
   reports::write_provenance(options.out, provenance_of(options.command_line), unsynced);
+  choose_step(study, options.scene);
+  const SceneConfig& scene = study.runs.front().scene;
   say("{}: {}\n", study.name, described_cost(scene));
   std::fflush(stdout);
   if (const std::string warning = step_warning(scene); !warning.empty())
@@ -83,6 +105,8 @@ int solve_command(const SceneOptions& options) {
   write_interchange(options.out, data);
 
   reports::Results results;
+  results.time_steps = study.time_steps;
+  results.pilots = study.pilots;
   results.studies.push_back({study.name, study.title, study.claim, "", ""});
   results.runs.push_back(data.record);
   results.timings.push_back(data.timing);

@@ -24,6 +24,7 @@
 #include "verification/runs/interruption.hpp"
 #include "verification/scene/scene_cost.hpp"
 #include "verification/suite/run_suite.hpp"
+#include "verification/suite/steps/settle_steps.hpp"
 
 namespace verification {
 namespace {
@@ -114,19 +115,20 @@ std::vector<Study> chosen_studies(const std::filesystem::path& studies, const st
   return chosen;
 }
 
-int run_session(const std::vector<Study>& studies, const SuiteSession& session, RunCache& cache) {
+void settle_and_say(std::vector<Study>& studies, RunCache& cache, int jobs) {
+  settle_steps(studies, cache, jobs, [](const std::string& line) {
+    say("{}\n", line);
+    std::fflush(stdout);
+  });
+}
+
+int run_session(std::vector<Study> studies, const SuiteSession& session, RunCache& cache) {
   SuiteListener listener;
   const bool progress = show_progress(), colour = use_colour();
-  if (progress)
-    listener.run_ended = [left = TimeLeft(studies)](long done, long total, const std::string& run) mutable {
-      warn("\r\033[K[{}/{} runs, {}] {}", done, total, left.after(run), run);
-      if (done == total) warn("\r\033[K");
-    };
   listener.study_ended = [&](const StudyData& data) {
     if (progress) warn("\r\033[K");
     print_study_line(data, colour);
   };
-  warn_of_steps(studies);
   const reports::ResultDirectory ours(session.out, session.force);
   const reports::EarlierRun earlier(session.out);
   // Provenance first: an interrupted run still says what made its files.
@@ -140,6 +142,13 @@ int run_session(const std::vector<Study>& studies, const SuiteSession& session, 
   };
   try {
     const InterruptionGuard guard;
+    settle_and_say(studies, cache, session.jobs);
+    warn_of_steps(studies);
+    if (progress)
+      listener.run_ended = [left = TimeLeft(studies)](long done, long total, const std::string& run) mutable {
+        warn("\r\033[K[{}/{} runs, {}] {}", done, total, left.after(run), run);
+        if (done == total) warn("\r\033[K");
+      };
     outcome = run_suite(studies, session.out, session.jobs, cache, listener,
                         session.keep_profiles ? Profiles::All : Profiles::Needed);
   } catch (const Interrupted& stop) {

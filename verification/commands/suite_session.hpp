@@ -26,8 +26,11 @@ struct SuiteSession {
   std::string command_line;
 };
 
-/// Runs the studies, says how it goes, and writes the report. Returns the exit code: 0 all checks pass, 1 one
-/// failed, 3 a run could not be simulated, 128 + signal.
-int run_session(const std::vector<Study>& studies, const SuiteSession& session, RunCache& cache);
+/// Steps of scenes that say dt = "auto", chosen and said (suite/steps/settle_steps.hpp).
+void settle_and_say(std::vector<Study>& studies, RunCache& cache, int jobs);
+
+/// Settles the steps of the studies, runs them, says how it goes, and writes the report. Returns the exit
+/// code: 0 all checks pass, 1 one failed, 3 a run could not be simulated, 128 + signal.
+int run_session(std::vector<Study> studies, const SuiteSession& session, RunCache& cache);
 
 }  // namespace verification

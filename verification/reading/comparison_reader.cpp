@@ -11,6 +11,7 @@
 #include "reports/files/csv.hpp"
 #include "reports/files/io_error.hpp"
 #include "verification/flows/grid_of_values.hpp"
+#include "verification/runs/pilot/fits.hpp"
 
 namespace verification {
 namespace {
@@ -168,6 +169,14 @@ void require_decidable(const TomlTable& root, const Study& study) {
       root.fail("check",
                 fmt::format("an error below {:g} cannot be shown by a table that is uncertain by {:g}",
                             check.upper, study.table_uncertainty));
+}
+
+void require_step_by_error(const Study& study, TomlTable scene, const Ladder& ladder, bool foreign) {
+  if (!scene.table("time").is_text("dt")) return;
+  const SceneConfig config = read_scene_config(scene.overlaid_with(TomlTable::from_text("", ""), ""),
+                                               foreign ? SceneFor::Theirs : SceneFor::Ours);
+  if (const std::string why = why_no_step_by_error(study, ladder, config, foreign); !why.empty())
+    scene.fail("time.dt", why);
 }
 
 }  // namespace verification

@@ -19,4 +19,7 @@ void require_comparable(const TomlTable& root, const Study& study);
 /// finest level. Throws ConfigError.
 void require_decidable(const TomlTable& root, const Study& study);
 
+/// Refuses a scene with dt = "auto" in a study, with this ladder, that has no error to choose the step by.
+void require_step_by_error(const Study& study, TomlTable scene, const Ladder& ladder, bool foreign);
+
 }  // namespace verification

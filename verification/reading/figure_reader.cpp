@@ -148,11 +148,21 @@ reports::FigureRecord read_figure(TomlTable& table, const Study& study) {
   }
   if (figure.kind == "convergence" && table.has("variants")) figure.labels = joined(variants);
   if (figure.kind == "work-precision") {
-    if (table.has("variants")) {
+    // A curve a scheme, or a curve a label: those of one scheme are told apart by it.
+    const std::vector<std::string> labels =
+        table.has("labels") ? table.texts("labels") : std::vector<std::string>();
+    if (!labels.empty() && labels.size() != variants.size())
+      table.fail("labels", "must be as many as the variants that it shows, one for each");
+    if (table.has("variants") || !labels.empty()) {
       runs.clear();
-      for (const std::string& variant : variants)
-        for (const PlannedRun* run : study.runs_of(variant)) runs.push_back(run->run);
+      std::vector<std::string> label_of;
+      for (std::size_t v = 0; v < variants.size(); ++v)
+        for (const PlannedRun* run : study.runs_of(variants[v])) {
+          runs.push_back(run->run);
+          if (!labels.empty()) label_of.push_back(labels[v]);
+        }
       figure.runs = joined(runs);
+      figure.labels = joined(label_of);
     }
     figure.across = table.text("cost", "wall");
     if (figure.across != "wall" && figure.across != "particle-steps")

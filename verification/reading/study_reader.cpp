@@ -87,7 +87,7 @@ TomlTable at_level(const TomlTable& scene, const Ladder& ladder, int level, std:
     result.set("discretisation.cells", ladder.cells[i]);
     if (ladder.along) result.set("discretisation.cells_along", cells_along_at(result, ladder, i));
     TomlTable time = result.table("time");
-    if (time.has("dt")) {
+    if (time.has("dt") && !time.is_text("dt")) {
       const double ratio = static_cast<double>(ladder.cells.front()) / ladder.cells[i];
       result.set("time.dt", time.positive("dt") * std::pow(ratio, ladder.dt_exponent));
     }
@@ -113,7 +113,11 @@ Ladder ladder_for(const Study& study, const TomlTable& scene) {
   const SceneConfig config = read_scene_config(copy);
   if (config.incompressible) return ladder;  // a variant beside the matrix
   const mpm::FormalOrder formal = formal_order(config);
-  if (ladder.formal_exponent) ladder.dt_exponent = formal_dt_exponent(formal);
+  // The error in time is held to a part of that in space: dt ~ h^(space/time).
+  if (config.auto_step)
+    ladder.dt_exponent = formal.space / formal.time;
+  else if (ladder.formal_exponent)
+    ladder.dt_exponent = formal_dt_exponent(formal);
   ladder.theoretical = expected_order(formal, ladder.axis, ladder.dt_exponent, Location::Grid);
   ladder.theoretical_particles = expected_order(formal, ladder.axis, ladder.dt_exponent, Location::Particles);
   return ladder;
@@ -144,6 +148,7 @@ void plan_input_runs(Study& study, const TomlTable& scene, const Ladder& ladder,
 
 void plan_runs(Study& study, const TomlTable& scene, const std::string& variant, const Solver& solver) {
   const Ladder ladder = ladder_for(study, scene);
+  require_step_by_error(study, scene, ladder, solver != nullptr);
   const std::size_t levels = ladder.axis == Axis::Space  ? ladder.cells.size()
                              : ladder.axis == Axis::Time ? ladder.dt.size()
                              : ladder.axis == Axis::Mach ? ladder.mach.size()

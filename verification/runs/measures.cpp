@@ -27,19 +27,6 @@ double pick(const Norms& norms, const std::string& norm) {
   return norm == "l1" ? norms.l1 : norm == "l2" ? norms.l2 : norms.linf;
 }
 
-/// Norms of the difference of two runs on the same mesh, particle by particle and corner by corner. Our own
-/// rows keep their order; those of others are paired by place.
-Norms difference_norms(const RunData& a, const RunData& b, double t, Location location) {
-  const auto rows_a = rows_at(a, t, location);
-  auto rows_b = rows_at(b, t, location);
-  std::vector<Eigen::Vector2d> differences;
-  if (a.foreign) rows_b = paired_by_place(rows_a, rows_b, pairing_distance(a.plan->scene, location));
-  if (rows_a.size() == rows_b.size())
-    for (std::size_t i = 0; i < rows_a.size(); ++i)
-      differences.emplace_back(rows_a[i]->u - rows_b[i]->u, rows_a[i]->v - rows_b[i]->v);
-  return norms_or_nan(differences, a.plan->scene.flow->velocity_scale_at(t));
-}
-
 /// The values of a run on the grid at a time, and between them. Throws std::invalid_argument where they are
 /// no grid.
 GridOfValues grid_of(const RunData& run, double t) {
@@ -53,7 +40,19 @@ GridOfValues grid_of(const RunData& run, double t) {
   return {rows, period, scene.flow->across(), scene.flow->has_shear_profile(), Interpolation::Cubic};
 }
 
-/// Norms of the difference of a run to a finer one of its ladder, whose grid is interpolated.
+}  // namespace
+
+Norms difference_norms(const RunData& a, const RunData& b, double t, Location location) {
+  const auto rows_a = rows_at(a, t, location);
+  auto rows_b = rows_at(b, t, location);
+  std::vector<Eigen::Vector2d> differences;
+  if (a.foreign) rows_b = paired_by_place(rows_a, rows_b, pairing_distance(a.plan->scene, location));
+  if (rows_a.size() == rows_b.size())
+    for (std::size_t i = 0; i < rows_a.size(); ++i)
+      differences.emplace_back(rows_a[i]->u - rows_b[i]->u, rows_a[i]->v - rows_b[i]->v);
+  return norms_or_nan(differences, a.plan->scene.flow->velocity_scale_at(t));
+}
+
 Norms norms_against(const RunData& run, const RunData& finer, double t, Location location) {
   std::vector<Eigen::Vector2d> differences;
   try {
@@ -65,6 +64,8 @@ Norms norms_against(const RunData& run, const RunData& finer, double t, Location
   }
   return norms_or_nan(differences, run.plan->scene.flow->velocity_scale_at(t));
 }
+
+namespace {
 
 /// GCI of the three finest levels and Eca-Hoekstra uncertainty of the probe velocity, relative to the scale.
 void add_uncertainty(reports::OrderRecord& order, const std::vector<const RunData*>& ladder,

@@ -6,9 +6,9 @@
 #include "solver/incompressible/make_incompressible_solver.hpp"
 #include "solver/scene/seeding.hpp"
 #include "solver/sph/stable_sph_step.hpp"
-#include "solver/step/stable_step.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/scene/scene_cost.hpp"
+#include "verification/scene/time_step_reader.hpp"
 
 namespace verification {
 namespace {
@@ -147,48 +147,6 @@ std::vector<double> read_outputs(TomlTable& table) {
   return outputs;
 }
 
-mpm::TimeStepRule read_time_step(TomlTable& table, const SceneConfig& config) {
-  const mpm::Scheme& scheme = config.scheme;
-  const mpm::Scene& scene = config.scene;
-  mpm::TimeStepRule rule;
-  if (table.has("dt")) {
-    rule.dt = table.positive("dt");
-    for (const char* key : {"cfl_acoustic", "cfl_viscous"})
-      if (table.has(key)) table.fail(key, "cannot stand beside dt: give either a step or its limits");
-    return rule;
-  }
-  if (table.has("cfl_acoustic") && table.has("cfl_viscous")) {
-    rule.cfl_acoustic = table.positive("cfl_acoustic");
-    rule.cfl_viscous = table.positive("cfl_viscous");
-    return rule;
-  }
-  if (config.incompressible) {
-    for (const char* key : {"cfl_acoustic", "cfl_viscous"})
-      if (table.has(key))
-        table.fail(key,
-                   "has no meaning for an incompressible fluid, whose step neither sound nor viscosity "
-                   "bounds: give dt");
-    // Nothing bounds the step but accuracy: a particle crosses two fifths of a cell.
-    rule.dt = 0.4 * scene.smallest_cell_size() / config.flow->velocity_scale();
-    return rule;
-  }
-  try {
-    rule = config.sph ? mpm::sph_time_step(*config.sph, config.scene)
-                      : mpm::automatic_time_step(config.scheme, config.scene);
-  } catch (const mpm::SceneError& error) {
-    table.fail("dt", error.what());
-  }
-  if (!config.sph && std::isinf(mpm::stable_step(scheme, mpm::fewest_particles_per_cell(scene)).viscous)) {
-    // Implicit viscosity: the explicit limit at the largest viscosity, which a power law has at its
-    // shear-rate floor, says nothing. Accuracy does.
-    const double h = scene.smallest_cell_size();
-    rule.cfl_viscous = accurate_implicit_step(config) * scene.fluid.largest_kinematic_viscosity() / (h * h);
-  }
-  rule.cfl_acoustic = table.positive("cfl_acoustic", rule.cfl_acoustic);
-  rule.cfl_viscous = table.positive("cfl_viscous", rule.cfl_viscous);
-  return rule;
-}
-
 }  // namespace
 
 const std::vector<std::string>& scene_tables() {
@@ -288,7 +246,7 @@ SceneConfig read_scene_config(TomlTable root, SceneFor whose) {
     time.fail("start", "is for flows whose density is known at any time: this one starts at t = 0 only");
   config.dt_given = !theirs || time.has("dt") || time.has("cfl_acoustic") || time.has("cfl_viscous");
   if (config.dt_given)
-    config.time_step = read_time_step(time, config);
+    read_time_step(time, config);
   else
     config.time_step.dt = config.outputs.back() - config.start;
   time.refuse_unknown_keys();

@@ -14,6 +14,12 @@
 
 namespace verification {
 
+/// time.dt = "auto": the step follows from errors that pilot runs measure (runs/pilot/).
+struct AutoStep {
+  double fraction = 0.1;  ///< of the error in space that the error in time may be: time.time_error_fraction
+  double stable = 0;      ///< longest step that the limits allow [s]; infinite where none bounds it
+};
+
 /// One simulation as the user states it: the tables scene, fluid, discretisation, scheme and time of a TOML
 /// file.
 struct SceneConfig {
@@ -28,6 +34,7 @@ struct SceneConfig {
   /// fluid.pressure = "incompressible": simulated by the incompressible material point method instead
   std::optional<mpm::IncompressibleScheme> incompressible;
   mpm::TimeStepRule time_step;
+  std::optional<AutoStep> auto_step;  ///< then time_step, and all that follows from it, is for the time being
   double start = 0;  ///< time at which the run starts, from the exact solution if not from rest [s]
   std::vector<double> outputs;               ///< output times, increasing [s]
   std::vector<double> more_reference_times;  ///< time.reference_times [s]

@@ -127,6 +127,11 @@ struct Study {
   std::vector<std::string> variants;
   std::vector<PlannedRun> runs;  ///< variant by variant, coarse to fine
   StabilityPlan stability;       ///< in place of runs: limits to measure
+  /// Steps of the runs whose scenes say dt = "auto", once they are chosen (runs/pilot/), and the runs that
+  /// they were chosen by.
+  std::vector<reports::TimeStepRecord> time_steps;
+  std::vector<reports::PilotRecord> pilots;
+  std::vector<reports::TimingRecord> pilot_timings;
   std::vector<CheckSpec> checks;
   /// How many checks the study says that it makes (expected_checks); none where it does not, or where a
   /// lesser suite runs a part of it.

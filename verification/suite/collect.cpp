@@ -68,6 +68,9 @@ reports::Results collect(const std::vector<const StudyData*>& studies) {
     append(results.validation, data->validation);
     append(results.joint_validation, data->joint_validation);
     append(results.timings, data->stability_timings);
+    append(results.time_steps, study.time_steps);
+    append(results.pilots, study.pilots);
+    append(results.timings, study.pilot_timings);
     append(results.figures, study.figures);
   }
   for (const auto& [place, chapter] : chapters) results.chapters.push_back(chapter);

@@ -24,6 +24,7 @@
 #include "verification/suite/run_entry.hpp"
 #include "verification/suite/schedule.hpp"
 #include "verification/suite/slots.hpp"
+#include "verification/suite/steps/settle_steps.hpp"
 
 namespace verification {
 namespace {
@@ -238,6 +239,7 @@ class SuiteRunner {
     data.scores = score_records(data);
     validate(data);
     require_all_checks(data);
+    for (reports::CheckRecord& check : unsettled_steps(*data.study)) data.checks.push_back(std::move(check));
     const bool failed =
         std::ranges::any_of(data.checks, [](const auto& check) { return check.verdict != "pass"; });
     for (RunData& run : data.runs) {

@@ -12,6 +12,7 @@
 
 #include "reports/files/csv.hpp"
 #include "reports/pages/html/page.hpp"
+#include "reports/pages/sections/time_steps.hpp"
 #include "reports/records/chapters.hpp"
 #include "reports/summaries/scoreboard.hpp"
 #include "reports/summaries/work_precision.hpp"
@@ -269,7 +270,8 @@ std::string html_study(const ReportData& data, const StudyRecord& study, const s
         fmt::format("<p>{} schemes ended as expected: see the <a href=\"#board-{}\">scoreboard</a>.</p>\n",
                     in_scoreboard, html_anchor(study.study));
   if (!checks.empty()) details += "<h4>Checks that hold</h4>\n" + html_checks(checks, false);
-  details += rates(results, study.study) + orders(results, study.study) + html_runs(results, study.study);
+  details += rates(results, study.study) + orders(results, study.study) + html_runs(results, study.study) +
+             html_time_steps(results, study.study);
   if (details.empty()) return text + "</section>\n";
   return text +
          fmt::format("<details{}><summary>{}checks, errors, orders, runs</summary>\n", good ? "" : " open",

@@ -6,6 +6,7 @@
 
 #include "reports/files/csv.hpp"
 #include "reports/files/io_error.hpp"
+#include "reports/records/directory/time_step_files.hpp"
 #include "reports/records/directory/validation_files.hpp"
 
 namespace reports {
@@ -123,7 +124,8 @@ constexpr auto timing_columns = std::make_tuple(                          //
     column("particle_steps_per_s", &TimingRecord::particle_steps_per_s),  //
     column("repetitions", &TimingRecord::repetitions),                    //
     column("spread", &TimingRecord::spread),                              //
-    column("source", &TimingRecord::source));
+    column("source", &TimingRecord::source),                              //
+    column("clock", &TimingRecord::clock));
 
 constexpr auto figure_columns = std::make_tuple(    //
     column("figure", &FigureRecord::figure),        //
@@ -251,6 +253,7 @@ Results read_results(const std::filesystem::path& dir) {
   results.stability = read_csv(dir / "stability.csv", stability_columns);
   if (std::filesystem::exists(dir / "controls.csv"))
     results.controls = read_csv(dir / "controls.csv", control_columns);
+  read_time_steps(dir, results);
   read_validation(dir, results);
   require_plain_names(results);
   return results;
@@ -292,6 +295,7 @@ void write_results(const std::filesystem::path& dir, const Results& results, Dur
   write_csv(dir / "stability.csv", stability_columns, results.stability, durability);
   if (!results.controls.empty())
     write_csv(dir / "controls.csv", control_columns, results.controls, durability);
+  write_time_steps(dir, results, durability);
   write_validation(dir, results, durability);
 }
 
@@ -299,11 +303,12 @@ void remove_tables(const std::filesystem::path& dir) {
   std::error_code ignored;
   // checks.csv goes first: without it nobody takes what is left for a result.
   for (const char* name :
-       {"checks.csv",   "report.html",    "report.pdf",           "report.md",          "summary.md",
-        "junit.xml",    "studies.csv",    "chapters.csv",         "headlines.csv",      "changes.csv",
-        "runs.csv",     "errors.csv",     "levels.csv",           "orders.csv",         "timing.csv",
-        "figures.csv",  "claims.csv",     "matrix.csv",           "scoreboard.csv",     "stability.csv",
-        "controls.csv", "validation.csv", "validation-joint.csv", "validation-bias.csv"})
+       {"checks.csv",   "report.html",    "report.pdf",           "report.md",           "summary.md",
+        "junit.xml",    "studies.csv",    "chapters.csv",         "headlines.csv",       "changes.csv",
+        "runs.csv",     "errors.csv",     "levels.csv",           "orders.csv",          "timing.csv",
+        "figures.csv",  "claims.csv",     "matrix.csv",           "scoreboard.csv",      "stability.csv",
+        "controls.csv", "validation.csv", "validation-joint.csv", "validation-bias.csv", "time-steps.csv",
+        "pilots.csv"})
     std::filesystem::remove(dir / name, ignored);
   for (const char* part : {".", "profiles", "scenes", "figures"})
     if (!std::filesystem::is_symlink(dir / part, ignored))

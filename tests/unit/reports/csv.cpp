@@ -167,7 +167,7 @@ TEST_CASE("the columns are those that the README names", "[reports]") {
         "run,study,scene,fluid,method,basis,transfer,stepping,reset,cells,particles,dt,steps,status\n");
   CHECK(read_file(dir / "errors.csv") == "run,t,location,l1,l2,linf,scale,exact_max\n");
   CHECK(read_file(dir / "checks.csv") == "study,check,observed,lower,upper,unit,verdict,reason\n");
-  CHECK(read_file(dir / "timing.csv") == "run,wall_s,particle_steps_per_s,repetitions,spread,source\n");
+  CHECK(read_file(dir / "timing.csv") == "run,wall_s,particle_steps_per_s,repetitions,spread,source,clock\n");
   write_profile(dir.path(), "r", {});
   CHECK(read_file(dir / "profiles/r.csv") == "t,location,x,y,u,v,u_exact,v_exact\n");
 }
@@ -176,13 +176,13 @@ TEST_CASE("columns may come in any order and there may be more of them", "[repor
   ScratchDirectory dir;
   write_results(dir.path(), {});
   write_file(dir / "timing.csv",
-             "machine,wall_s,run,repetitions,source,spread,particle_steps_per_s\r\n"
-             "\"x,\"\"y\"\"\",+2.5 , r ,3,cache,nan,1e400\r\n");
+             "machine,wall_s,run,repetitions,source,clock,spread,particle_steps_per_s\r\n"
+             "\"x,\"\"y\"\"\",+2.5 , r ,3,cache,simulation,nan,1e400\r\n");
   CHECK_THROWS_WITH(read_results(dir.path()),
                     contains("timing.csv:2: column 'particle_steps_per_s': '1e400'"));
   write_file(dir / "timing.csv",
-             "machine,wall_s,run,repetitions,source,spread,particle_steps_per_s\r\n"
-             "\"x,\"\"y\"\"\",+2.5 , r ,3,cache,nan,1e4\r\n");
+             "machine,wall_s,run,repetitions,source,clock,spread,particle_steps_per_s\r\n"
+             "\"x,\"\"y\"\"\",+2.5 , r ,3,cache,simulation,nan,1e4\r\n");
   const Results results = read_results(dir.path());
   REQUIRE(results.timings.size() == 1);
   CHECK(results.timings[0].run == "r");

@@ -4,6 +4,7 @@
 #include "tests/catch.hpp"
 #include "tests/study_text.hpp"
 #include "tests/unit/verification/read_text.hpp"
+#include "verification/config/config_error.hpp"
 
 using namespace reports;
 
@@ -64,6 +65,11 @@ TEST_CASE("the variants of a figure are taken from its study, whatever its kind"
   CHECK(figure_of("kind = \"convergence\"\nvariants = [\"b\"]\n").labels == "b");
   CHECK(figure_of("kind = \"work-precision\"\n").runs.empty());
   CHECK(figure_of("kind = \"work-precision\"\nvariants = [\"b\"]\n").runs.find(".a.") == std::string::npos);
+  const auto labelled =
+      figure_of("kind = \"work-precision\"\nvariants = [\"b\"]\nlabels = [\"the second\"]\n");
+  CHECK(std::ranges::count(labelled.labels, ';') == std::ranges::count(labelled.runs, ';'));
+  CHECK(labelled.labels.starts_with("the second"));
+  CHECK_THROWS_AS(figure_of("kind = \"work-precision\"\nlabels = [\"of two\"]\n"), verification::ConfigError);
   const std::string runs = figure_of("kind = \"work-precision\"\nvariants = [\"b\"]\n").runs;
   CHECK(std::count(runs.begin(), runs.end(), ';') == 2);  // all three levels
 }

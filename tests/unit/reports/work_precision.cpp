@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "reports/figures/figures.hpp"
+#include "reports/files/csv.hpp"
 #include "tests/catch.hpp"
 
 using namespace reports;
@@ -55,6 +56,30 @@ TEST_CASE("runs timed once, beside others, are in no table of costs") {
   CHECK(cheapest_runs(r).empty());
   CHECK(html_cheapest(r).empty());
   CHECK(markdown_cheapest(r).empty());
+}
+
+TEST_CASE("another solver has a row of its own, with who measured its time, where its study times ours") {
+  Results r = timed_results();
+  const auto add = [&](const std::string& run, const std::string& study, double wall, const char* clock) {
+    r.runs.push_back({run, study, "poiseuille", "newtonian", foreign_scheme, foreign_scheme, foreign_scheme,
+                      64, unknown_count, 0.1, unknown_count, "completed"});
+    r.runs.back().method = "OpenFOAM 1912";
+    r.errors.push_back({run, 1.0, "grid", 5e-3, 5e-3, 5e-3});
+    r.timings.push_back({run, wall, 1, 1, std::nan(""), timing_measured, clock});
+  };
+  add("theirs", "w", 0.5, clock_solver);
+  add("beside-others", "elsewhere", 0.1, clock_process);  // of a study whose runs share the machine
+  const auto tables = cheapest_runs(r);
+  REQUIRE(tables.size() == 2);
+  CHECK(tables[0].runs[0].run->run == "a1");  // ours stands as before, though theirs is faster
+  CHECK(tables[1].solver == "OpenFOAM 1912");
+  CHECK(tables[1].runs[0].run->run == "theirs");
+  CHECK(tables[1].runs[1].run == nullptr);
+  CHECK_THAT(markdown_cheapest(r),
+             contains("| poiseuille, newtonian, OpenFOAM 1912 | 0.5 s: 64 cells, dt 0.1 s; "
+                      "time as the solver says itself | - |"));
+  for (TimingRecord& timing : r.timings) timing.clock = clock_process;
+  CHECK_THAT(markdown_cheapest(r), contains("time of its whole process"));
 }
 
 TEST_CASE("errors of a run: one time, the largest, and none for what did not complete") {

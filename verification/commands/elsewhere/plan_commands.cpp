@@ -100,8 +100,20 @@ int shard_count(const std::string& text, const std::vector<Study>& studies) {
 
 }  // namespace
 
+namespace {
+
+/// A plan holds scenes with numbers in them: what pilots must run for that, runs here.
+void settle_by_cache(std::vector<Study>& studies) {
+  RunCache cache(cache_directory(), CacheUse::Reuse);
+  settle_and_say(studies, cache, job_count(0));
+  cache.prune();
+}
+
+}  // namespace
+
 Manifest write_plan(const PlanOptions& options) {
-  const std::vector<Study> studies = chosen_studies(options.studies, options.names, options.suite);
+  std::vector<Study> studies = chosen_studies(options.studies, options.names, options.suite);
+  settle_by_cache(studies);
   Manifest manifest;
   manifest.suite = PlannedSuite::of(options.studies, options.names, options.suite);
   manifest.program = program_identity();
@@ -154,6 +166,7 @@ int judge_command(const JudgeOptions& options) {
   const Manifest manifest = read_manifest(options.dir);
   std::vector<Study> studies =
       chosen_studies(manifest.suite.studies, manifest.suite.names, manifest.suite.suite);
+  settle_by_cache(studies);
   std::map<std::string, std::string> key_of;
   for (const PlannedEntry& entry : manifest.runs) key_of[entry.run] = entry.key;
   for (const Study& study : studies)

@@ -66,9 +66,8 @@ int shard_command(const RunOptions& options) {
     throw ConfigError(
         "--shard keeps its runs in --out and goes on from them: leave out --no-cache, --fresh and --resume");
   const Shard shard = shard_named(options.shard);
-  const std::vector<Study> studies = chosen_studies(options.studies, options.names, options.suite);
+  std::vector<Study> studies = chosen_studies(options.studies, options.names, options.suite);
   require_keepable(studies);
-  const std::vector<Job> jobs = partition(studies, shard.count)[static_cast<std::size_t>(shard.index - 1)];
   const reports::ResultDirectory ours(options.out, options.force);
   reports::write_provenance(options.out, provenance_of(options.command_line));
   ShardState state{PlannedSuite::of(options.studies, options.names, options.suite),
@@ -77,7 +76,7 @@ int shard_command(const RunOptions& options) {
                    reports::this_machine().cpu,
                    shard.index,
                    shard.count,
-                   static_cast<long>(jobs.size()),
+                   0,
                    false,
                    {}};
   write_shard(options.out, state);
@@ -86,6 +85,11 @@ int shard_command(const RunOptions& options) {
   const bool progress = show_progress();
   try {
     const InterruptionGuard guard;
+    // Every shard chooses the steps itself: from the same runs it comes to the same ones.
+    settle_and_say(studies, cache, job_count(options.jobs));
+    const std::vector<Job> jobs = partition(studies, shard.count)[static_cast<std::size_t>(shard.index - 1)];
+    state.runs = static_cast<long>(jobs.size());
+    write_shard(options.out, state);
     state.failures =
         run_shard(studies, jobs, cache, options.out, job_count(options.jobs), [&](const std::string& run) {
           if (progress) warn("\r\033[K[{}/{} runs] {}", ++done, state.runs, run);
@@ -116,8 +120,9 @@ int collect_command(const CollectOptions& options) {
   require_one_suite(dirs, shards);
   const PlannedSuite& suite = shards.front().suite;
   const fs::path folder = options.studies.empty() ? suite.studies : options.studies;
-  const std::vector<Study> studies = chosen_studies(folder, suite.names, suite.suite);
+  std::vector<Study> studies = chosen_studies(folder, suite.names, suite.suite);
   RunCache cache(origins);
+  settle_and_say(studies, cache, job_count(options.jobs));
   const std::vector<std::string> missing = missing_runs(studies, cache);
   if (!missing.empty()) {
     std::set<int> there;

@@ -201,7 +201,10 @@ void read_run_json(const fs::path& file, const ForeignSolver& solver, RunData& d
     data.record.particles = json.value("particles", data.record.particles);
     data.record.cells = json.value("cells", data.record.cells);
     data.record.dt = json.value("dt", data.record.dt);
-    data.timing.wall_s = json.value("wall_s", data.timing.wall_s);
+    if (json.contains("wall_s")) {
+      data.timing.wall_s = json.at("wall_s");
+      data.timing.clock = reports::clock_solver;
+    }
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("its run.json cannot be read: ") + error.what());
   }

@@ -178,6 +178,7 @@ RunData run_foreign(const Study& study, const PlannedRun& plan, const fs::path& 
     if (!version.empty()) data.record.method += " " + version;
     const Source source = make_results(plan, out, folder, version, kept);
     data.timing.wall_s = source.seconds;
+    data.timing.clock = reports::clock_process;
     if (source.kept) data.timing.source = reports::timing_from_cache;
     read_delivery(study, plan, source.folder, folder, data);
     read_run_json(source.folder / "run.json", solver, data);

@@ -59,6 +59,9 @@ std::vector<std::string> further_studies() {
           "key = \"fluid.density\"\nuncertainty = 1\nsource = \"any\"\n[[validation.quantity]]\n"
           "name = \"u\"\nlargest_error = 1\nreason = \"any\"\ny = 5e-4\npredict_at = [0.1]\n"
           "[ladder]\naxis = \"space\"\ncells = [4, 8]\ntheoretical = 2\n",
+      study_text("T", "C",
+                 couette_scene("cells = 8", "dt = \"auto\"\ntime_error_fraction = 0.2\nend = 0.1")) +
+          any_check,
       box("initial_velocity = [1, 0]\nbody_acceleration = [0, -1]\n" + walls +
           "[scene.slip_length]\nleft = 1e-4\nright = 1e-4\nbottom = 1e-4\ntop = 1e-4\n"
           "[[scene.fluid_region]]\npolygon = [0, 0, 1, 0, 0, 1]\n[[scene.fluid_region]]\n"
