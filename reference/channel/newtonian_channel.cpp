@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "reference/channel/ierfc.hpp"
+#include "reference/ierfc.hpp"
 #include "reference/require.hpp"
 
 namespace reference {

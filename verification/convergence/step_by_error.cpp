@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "verification/not_a_number.hpp"
 
 namespace verification {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // (end - begin)/dt is a whole number but for rounding.
 constexpr double sliver = 1e-9;
 constexpr double finest_common = 20;  // shortest interval over the common one, at most

@@ -11,7 +11,7 @@
 namespace verification {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 bool has_implicit_viscosity(const SceneConfig& config) {
   return !config.sph && !config.incompressible &&
@@ -57,11 +57,11 @@ mpm::TimeStepRule rule_of_limits(TomlTable& table, const SceneConfig& config) {
 
 /// What bounds the step but its error [s].
 double stable_bound(TomlTable& table, const SceneConfig& config, mpm::TimeStepRule rule) {
-  if (config.incompressible) return infinity;
+  if (config.incompressible) return unbounded;
   const bool viscous = table.has("cfl_viscous") || !has_implicit_viscosity(config);
   if (!viscous) {
     const double sound = config.scene.fluid.sound_speed();
-    return sound > 0 ? rule.cfl_acoustic * config.scene.smallest_cell_size() / sound : infinity;
+    return sound > 0 ? rule.cfl_acoustic * config.scene.smallest_cell_size() / sound : unbounded;
   }
   return mpm::nominal_time_step(rule, config.scene);
 }

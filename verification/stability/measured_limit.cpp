@@ -17,7 +17,7 @@ using mpm::Vec2;
 constexpr double amplitude = 1e-10;
 constexpr double growth = 1e4;  // of energy: a factor 100 of the amplitude
 // Energies below this part of the first are round-off.
-constexpr double round_off = 1e-10;
+constexpr double limit_round_off = 1e-10;
 constexpr double resolution = 2e-3;  // of the bisection
 
 /// Random values between -1 and 1 on a fine periodic lattice, interpolated bilinearly: a function with a
@@ -107,7 +107,7 @@ bool perturbation_grows(const MeasuringPlan& plan, double multiple) {
     simulation->advance(step * dt, dt);
     if (simulation->breakdown()) return true;
     const double energy = perturbation_energy(simulation->particles(), c);
-    if (!(energy <= growth * std::max(least, round_off * first))) return true;
+    if (!(energy <= growth * std::max(least, limit_round_off * first))) return true;
     least = std::min(least, energy);
   }
   return false;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/channel/ierfc.hpp"
+#include "reference/ierfc.hpp"
 #include "reference/require.hpp"
 
 namespace reference {

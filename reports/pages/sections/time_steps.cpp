@@ -60,7 +60,7 @@ std::string fraction_of(const Choice& choice) {
   return number(choice.levels.front()->fraction);
 }
 
-constexpr const char* explanation =
+constexpr const char* time_steps_explanation =
     "dt: the longest step, coarse to fine, whose error in time is expected to stay the fraction of the error "
     "in "
     "space; in brackets what bounded it instead. Errors are L2 on the grid, the largest of all output times. "
@@ -84,7 +84,7 @@ std::string html_time_steps(const Results& results, const std::string& study) {
          html_table(
              "<th>variant</th><th>dt [s]</th><th class=\"n\">fraction</th><th>from</th><th>pilot runs</th>",
              rows) +
-         "<p class=\"faint\">" + explanation + "</p>\n";
+         "<p class=\"faint\">" + time_steps_explanation + "</p>\n";
 }
 
 std::string markdown_time_steps(const Results& results) {
@@ -96,7 +96,7 @@ std::string markdown_time_steps(const Results& results) {
   if (rows.empty()) return "";
   return "\n## Time steps by error\n\n| study | variant | dt [s] | fraction | from | pilot runs "
          "|\n|---|---|---|---|---|---|\n" +
-         rows + "\n" + explanation + "\n";
+         rows + "\n" + time_steps_explanation + "\n";
 }
 
 }  // namespace reports

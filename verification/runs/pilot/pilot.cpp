@@ -9,13 +9,13 @@
 #include <optional>
 
 #include "verification/convergence/step_by_error.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/pilot/fits.hpp"
 #include "verification/runs/pilot/pilot_runs.hpp"
 
 namespace verification {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Solvers agree to 1e-12 of the scale over thousands of steps (studies *-discrete); differences below ten
 // times that are no error in time.

@@ -7,21 +7,21 @@
 #include <limits>
 
 #include "verification/convergence/step_by_error.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/measures.hpp"
 #include "verification/scene/time_step_reader.hpp"
 
 namespace verification {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 template <class NormAt>
 double largest(const SceneConfig& scene, NormAt&& norm_at) {
   double worst = 0;
   for (const double t : scene.outputs) {
     const double value = norm_at(t);
-    if (!std::isfinite(value)) return infinity;
+    if (!std::isfinite(value)) return no_bound;
     worst = std::max(worst, value);
   }
   return worst;

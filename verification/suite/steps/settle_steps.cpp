@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "reports/files/io_error.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/not_a_number.hpp"
 #include "verification/runs/interruption.hpp"
 #include "verification/runs/pilot/pilot.hpp"
 #include "verification/runs/run_simulation.hpp"
@@ -16,8 +16,6 @@
 
 namespace verification {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A variant whose steps are to be chosen.
 struct Open {
