@@ -38,22 +38,21 @@ class Bands {
   /// The sums to which f(row, sums) adds a component.
   template <class F>
   [[nodiscard]] Both sum_of_rows(F&& f) const {
-    std::array<Both, most> of_band;
-    each_band([&](int band) {
-      Lanes sums[2] = {0, 0};
+    const auto [first_sum, second_sum] = sum_of_bands<2>([&](int band, Lanes(&sums)[2]) {
       for (int row = first(band, rows()); row < first(band + 1, rows()); ++row) f(row, sums);
-      for (int c : {0, 1}) of_band[static_cast<std::size_t>(band)].of[c] = mpm::MPM_ISA::sum(sums[c]);
     });
-    Both total{{0, 0}};
-    for (int band = 0; band < count_; ++band)
-      for (int c : {0, 1}) total.of[c] += of_band[static_cast<std::size_t>(band)].of[c];
-    return total;
+    return {{first_sum, second_sum}};
+  }
+  /// The sums to which f(rows of cells, sums) adds.
+  template <std::size_t count, class F>
+  [[nodiscard]] std::array<double, count> sum_of_cells(F&& f) const {
+    return sum_of_bands<count>([&](int band, Lanes(&sums)[count]) { f(rows_of_cells(band), sums); });
   }
 
   /// f(band, rows of cells) for all bands.
   template <class F>
   void each_of_cells(F&& f) const {
-    each_band([&](int band) { f(band, Rows{first(band, cells_), first(band + 1, cells_)}); });
+    each_band([&](int band) { f(band, rows_of_cells(band)); });
   }
   /// The same for cells that add to their nodes: no band together with its neighbours, with which it shares
   /// nodes.
@@ -61,8 +60,7 @@ class Bands {
   void each_of_cells_apart(F&& f) const {
     for (int parity : {0, 1})
       each((count_ + 1 - parity) / 2, [&](int pair) {
-        const int band = 2 * pair + parity;
-        f(Rows{first(band, cells_), first(band + 1, cells_)});
+        f(rows_of_cells(2 * pair + parity));
       });
   }
   /// f(k) for k below a number, on all threads.
@@ -85,6 +83,25 @@ class Bands {
   template <class F>
   void each_band(F&& f) const {
     each(count_, f);
+  }
+  /// In the order of bands.
+  template <std::size_t count, class F>
+  [[nodiscard]] std::array<double, count> sum_of_bands(F&& f) const {
+    std::array<std::array<double, count>, most> of_band;
+    each_band([&](int band) {
+      Lanes sums[count];
+      std::fill_n(sums, count, Lanes(0));
+      f(band, sums);
+      for (std::size_t k = 0; k < count; ++k)
+        of_band[static_cast<std::size_t>(band)][k] = mpm::MPM_ISA::sum(sums[k]);
+    });
+    std::array<double, count> total{};
+    for (int band = 0; band < count_; ++band)
+      for (std::size_t k = 0; k < count; ++k) total[k] += of_band[static_cast<std::size_t>(band)][k];
+    return total;
+  }
+  [[nodiscard]] Rows rows_of_cells(int band) const {
+    return {first(band, cells_), first(band + 1, cells_)};
   }
   [[nodiscard]] int rows() const { return lattice_.count(1); }
   [[nodiscard]] int first(int band, int rows) const {

@@ -30,13 +30,17 @@ class Lattice {
   [[nodiscard]] int degree() const { return degree_; }
   /// Nodes along an axis that have a value of their own.
   [[nodiscard]] int count(int axis) const { return count_[static_cast<std::size_t>(axis)]; }
+  /// Of a node that has a value of its own, the n-th of them.
+  [[nodiscard]] int place_of(int n) const { return n / count_[0] * stride_ + n % count_[0]; }
+  /// To which cells add, margin and all.
+  [[nodiscard]] int rows() const { return cells_[1] + degree_ + 1; }
   [[nodiscard]] bool periodic(int axis) const { return periodic_[static_cast<std::size_t>(axis)]; }
   /// Of a field: before its first node; in all.
   [[nodiscard]] std::size_t margin() const {
     return static_cast<std::size_t>(whole_vectors(degree_ * stride_ + degree_));
   }
   [[nodiscard]] std::size_t size() const {
-    return margin() + static_cast<std::size_t>((cells_[1] + 2 * degree_ + 1) * stride_ + 4 * width);
+    return margin() + static_cast<std::size_t>((rows() + degree_) * stride_ + 4 * width);
   }
 
   /// f(i) for the vectors i to i + width - 1 of a row of nodes. The last one reaches into the margin.

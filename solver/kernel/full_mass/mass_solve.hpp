@@ -12,13 +12,15 @@ namespace mpm::MPM_ISA {
 template <int degree>
 class MassSolve {
  public:
-  MassSolve(const Lattice& lattice, const Bands& bands, const FullMassSetup& setup)
+  /// With the mass of a uniform fluid, and the nodes whose values are prescribed (FullMassSetup).
+  MassSolve(const Lattice& lattice, const Bands& bands, const MassMatrix<degree>& matrix,
+            const std::array<LineMass, 2>& line, const std::vector<int>& walls, double negligible_mass)
       : lattice_(lattice),
         bands_(bands),
-        matrix_(lattice),
-        inverse_(lattice, setup.mass),
-        negligible_mass_(setup.negligible_mass),
-        has_walls_(!setup.wall_nodes.empty()),
+        matrix_(matrix),
+        inverse_(lattice, line),
+        negligible_mass_(negligible_mass),
+        has_walls_(!walls.empty()),
         node_(lattice),
         prescribed_(lattice),
         residual_(lattice),
@@ -27,16 +29,12 @@ class MassSolve {
         product_(lattice) {
     for (int j = 0; j < lattice.count(1); ++j)
       for (int k = 0; k < lattice.count(0); ++k)
-        node_[uniform][j * lattice.stride() + k] = setup.mass[0].diagonal[static_cast<std::size_t>(k)] *
-                                                   setup.mass[1].diagonal[static_cast<std::size_t>(j)];
-    for (const int wall : setup.wall_nodes) {
-      const int count = lattice.count(0);
-      node_[uniform][wall / count * lattice.stride() + wall % count] = 0;
-    }
+        node_[uniform][j * lattice.stride() + k] = line[0].diagonal[static_cast<std::size_t>(k)] *
+                                                   line[1].diagonal[static_cast<std::size_t>(j)];
+    for (const int wall : walls) node_[uniform][lattice.place_of(wall)] = 0;
   }
 
-  MassMatrix<degree>& matrix() { return matrix_; }
-  /// Values on wall nodes; zero elsewhere.
+  /// Values on walls' nodes; zero elsewhere.
   double* prescribed(std::size_t c) { return prescribed_[c]; }
   /// Of all solves.
   [[nodiscard]] long iterations() const { return iterations_; }
@@ -211,7 +209,7 @@ class MassSolve {
 
   const Lattice& lattice_;
   const Bands& bands_;
-  MassMatrix<degree> matrix_;
+  const MassMatrix<degree>& matrix_;
   UniformInverse inverse_;
   double negligible_mass_;
   bool has_walls_;
