@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "solver/grid/field_samples.hpp"
 #include "solver/lanes/full_mass_passes.hpp"
 #include "solver/simulation.hpp"
@@ -8,20 +10,13 @@
 namespace mpm {
 
 /// Whether a FullMassSolver covers a scheme on a scene: leapfrog steps of the consistent mass in a plane full
-/// of fluid between walls that stick, no acceleration that varies in space. A periodic axis must be longer
-/// than a row of the mass matrix, 2 degree + 1 nodes: on a shorter one a node meets a neighbour on both
-/// sides.
-template <class Basis>
-bool full_mass_lanes_cover(const Scene& scene, const Scheme& scheme) {
-  for (const int axis : {0, 1})
-    if (scene.periodic(axis) && scene.cells[static_cast<std::size_t>(axis)] <= 2 * Basis::degree)
-      return false;
+/// of fluid between walls that stick.
+inline bool full_mass_lanes_cover(const Scene& scene, const Scheme& scheme) {
   const bool slips = std::any_of(scene.sides.begin(), scene.sides.end(), [](const Side& side) {
     return !side.periodic && (side.slip_length != 0 || side.traction != 0);
   });
   return scheme.transfer == Scheme::Transfer::FullMass && scheme.stepping == Scheme::Stepping::Leapfrog &&
-         scheme.dilatation == Scheme::Dilatation::Particle && !scene.acceleration_field &&
-         !scene.free_surface && !slips;
+         scheme.dilatation == Scheme::Dilatation::Particle && !scene.free_surface && !slips;
 }
 
 /// The leapfrog of the consistent mass on the vector kernels: the same scheme as Solver, several times
