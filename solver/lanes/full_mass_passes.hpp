@@ -122,7 +122,7 @@ class FullMassPasses {
   /// Brings the walls' velocity at the start into the particles.
   void start() {
     prescribe([&](VectorField& v) { walls_.impose_velocity(v, scene_.start); });
-    kernel_->project();
+    kernel_->project_aside();
     kernel_->take();
     kernel_->set_stress();
   }

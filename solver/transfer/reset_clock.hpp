@@ -8,8 +8,7 @@ namespace mpm {
 /// fastest, since they last did.
 class ResetClock {
  public:
-  explicit ResetClock(const Scheme& scheme)
-      : every_(scheme.reset_every), most_strain_(scheme.reset_strain) {}
+  explicit ResetClock(const Scheme& scheme) : every_(scheme.reset_every), most_strain_(scheme.reset_strain) {}
 
   /// Whether they are due for it, after a step of dt [s] at whose end the fluid is strained at a rate of
   /// strain_rate() where that is largest [1/s].

@@ -12,9 +12,6 @@ namespace mpm {
 // own field (FullMass, solver/transfer/transfer.hpp), moved along straight lines. Components and plain data
 // as in kernel.hpp.
 
-/// Entries of LineMass::inverse beside its diagonal, at most.
-constexpr int most_reach = 16;
-
 /// What the matrix of a uniform fluid is along an axis, and what comes near its inverse (line_mass(),
 /// solver/lanes): the entries within `reach` of the diagonal, entry (i, i + d) at (d + reach) * count + i
 /// [1/m].
@@ -76,10 +73,10 @@ struct FullMassSetup {
   KernelSetup particles;  ///< where they are, and of which fluid
   /// By axis: of the functions that walls prescribe not, and of all.
   std::array<LineMass, 2> mass, whole_mass;
-  std::vector<int> wall_nodes;   ///< row * count along + i
-  bool resets;                   ///< whether reset() will be called
-  double negligible_mass;        ///< functions whose M_ii is below this part of the largest are left out
-  ThreadTeam* team;              ///< outlives the kernel
+  std::vector<int> wall_nodes;  ///< row * count along + i
+  bool resets;                  ///< whether reset() will be called
+  double negligible_mass;       ///< functions whose M_ii is below this part of the largest are left out
+  ThreadTeam* team;             ///< outlives the kernel
 };
 
 }  // namespace mpm

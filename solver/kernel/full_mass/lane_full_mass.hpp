@@ -28,7 +28,7 @@ class LaneFullMass final : public FullMassKernel {
         middle_acceleration_(lattice_),
         acceleration_(lattice_),
         nothing_(lattice_),
-        velocities_(lattice_),
+        drifts_(lattice_),
         middle_accelerations_(lattice_),
         changes_(lattice_) {
     if (setup.resets) reset_.emplace(setup, lattice_, bands_, matrix_);
@@ -45,7 +45,9 @@ class LaneFullMass final : public FullMassKernel {
 
   Balance project() override {
     sum_momentum_and_mass();
-    const Balance balance = solve(velocity_, nothing_, velocities_, {{0, 0}});
+    // The field that the particles took last, and what a drift makes of it.
+    const Balance balance = kicked_ ? solve(velocity_, *kicked_, drifts_, {{0, 0}})
+                                    : solve_(mass_[0], right_side_, velocity_, {{0, 0}});
     energy_ = bands_.sum([&](int i, Lanes(&sum)[2]) {
       for (std::size_t c : {0, 1}) {
         const Lanes v = load(velocity_[c] + i);
@@ -58,7 +60,7 @@ class LaneFullMass final : public FullMassKernel {
 
   Balance project_aside() override {
     sum_momentum_and_mass();
-    velocities_.read(bands_, time_, nothing_, velocity_);
+    if (kicked_) drifts_.read(bands_, time_, *kicked_, velocity_, 0.5);  // half the drift is to come
     return solve_(mass_[0], right_side_, velocity_, {{0, 0}});
   }
 
@@ -71,12 +73,10 @@ class LaneFullMass final : public FullMassKernel {
     LatticeVector& a = whole ? acceleration_ : middle_acceleration_;
     const Balance balance = whole ? solve(a, middle_acceleration_, changes_, beside)
                                   : solve(a, nothing_, middle_accelerations_, beside);
-    bands_.each_row([&](int row) {
-      lattice_.each_vector(row, [&](int i) {
-        for (std::size_t c : {0, 1}) store(velocity_[c] + i, load(start_[c] + i) + dt * load(a[c] + i));
-      });
-      for (std::size_t c : {0, 1}) lattice_.fill_margin(velocity_[c], row);
+    bands_.each_vector_with_margins(velocity_, [&](int i) {
+      for (std::size_t c : {0, 1}) store(velocity_[c] + i, load(start_[c] + i) + dt * load(a[c] + i));
     });
+    if (whole) kicked_ = velocity_;
     return balance;
   }
 
@@ -114,7 +114,8 @@ class LaneFullMass final : public FullMassKernel {
 
   Motion drift(double dt) override {
     time_ += dt;
-    const double cells_a_step[2] = {dt * particles_.basis().inverse_h[0], dt * particles_.basis().inverse_h[1]};
+    const double cells_a_step[2] = {dt * particles_.basis().inverse_h[0],
+                                    dt * particles_.basis().inverse_h[1]};
     bands_.each_of_cells([&](int band, Rows rows) {
       Share& share = shares_[static_cast<std::size_t>(band)];
       Lanes energy = 0, least_volume = 0;
@@ -176,9 +177,7 @@ class LaneFullMass final : public FullMassKernel {
     set_stress();
   }
 
-  void positions(double* const x[2]) const override {
-    OutsideAcceleration<degree>::positions(particles_, x);
-  }
+  void positions(double* const x[2]) const override { OutsideAcceleration<degree>::positions(particles_, x); }
   void accelerate_particles(const double* const b[2], double force[2]) override {
     outside_.set(particles_, b, force);
   }
@@ -218,7 +217,7 @@ class LaneFullMass final : public FullMassKernel {
       lattice_.join_images(field == 0 ? mass_[0] : right_side_[static_cast<std::size_t>(field) - 1]);
     });
     matrix_.complete(bands_);
-    solve_.fix_nodes();
+    solve_.fix_nodes(mass_[0]);
   }
 
   /// m_i b + sum_p N_ip m_p b_p - sum_p V_p sigma_p grad N_ip, stress and all as in LaneKernel.
@@ -278,7 +277,7 @@ class LaneFullMass final : public FullMassKernel {
 
   /// Solves for x, from where a forecast of its difference to `base` says that it is.
   Balance solve(LatticeVector& x, const LatticeVector& base, Forecast& forecast, const Both& beside) {
-    forecast.read(bands_, time_, base, x);
+    forecast.read(bands_, time_, base, x, 1);
     const Balance balance = solve_(mass_[0], right_side_, x, beside);
     forecast.keep(bands_, time_, base, x);
     return balance;
@@ -296,9 +295,11 @@ class LaneFullMass final : public FullMassKernel {
   std::optional<LatticeReset<degree>> reset_;
   LatticeFields<1> mass_;  // sum_p N_ip m_p [kg/m]
   LatticeVector right_side_, velocity_, start_, middle_acceleration_, acceleration_, nothing_;
-  Forecast velocities_, middle_accelerations_, changes_;  // changes from one acceleration to the other
-  Both energy_{{0, 0}};                                   // sum_i m_i v_i^2 at the start [kg m/s2]
-  double time_ = 0;                                       // of particles, since the first drift [s]
+  std::optional<LatticeVector> kicked_;  // the velocity that the last step ended with
+  // What drifts add to it; accelerations, and their changes from the middle of a step to the whole.
+  Forecast drifts_, middle_accelerations_, changes_;
+  Both energy_{{0, 0}};  // sum_i m_i v_i^2 at the start [kg m/s2]
+  double time_ = 0;      // of particles, since the first drift [s]
 };
 
 }  // namespace mpm::MPM_ISA

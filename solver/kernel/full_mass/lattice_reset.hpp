@@ -22,7 +22,7 @@ class LatticeReset {
     for (int row = 0; row < lattice.count(1); ++row)
       std::fill_n(weight_[0] + row * lattice.stride(), lattice.count(0), 1.0);
     for (const int wall : setup.wall_nodes) weight_[0][lattice.place_of(wall)] = 0;
-    for (int row = 0; row < lattice.count(1); ++row) lattice.fill_margin(weight_[0], row);
+    lattice.fill_margins(weight_[0], {0, lattice.count(1)});
   }
 
   /// Density on the nodes, M^-1 sum_p N_ip m_p rho_p, of particles that the matrix and `mass`, sum_p N_ip
@@ -37,7 +37,7 @@ class LatticeReset {
           });
         });
     bands_.each(2, [&](int c) { lattice_.join_images(right_side_[static_cast<std::size_t>(c)]); });
-    density_solve_.fix_nodes();
+    density_solve_.fix_nodes(mass);
     bands_.each_vector([&](int i) {
       const Lanes m = load(mass + i);
       store(density_[0] + i, load(right_side_[0] + i) / select(m > 0, m, 1));

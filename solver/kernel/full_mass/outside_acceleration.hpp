@@ -18,8 +18,7 @@ class OutsideAcceleration {
     each_particle(particles, [&](std::size_t n, const Block& block, std::size_t slot, int lane) {
       const int number = block.first_node + lane;
       const int cell[2] = {number % cells.stride(), number / cells.stride()};
-      for (int a : {0, 1})
-        x[a][n] = (cell[a] + cells.slots(block)[slot].s[a][lane]) * particles.cell_size(a);
+      for (int a : {0, 1}) x[a][n] = (cell[a] + cells.slots(block)[slot].s[a][lane]) * particles.cell_size(a);
     });
   }
 
