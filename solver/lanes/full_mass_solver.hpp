@@ -10,8 +10,13 @@
 namespace mpm {
 
 /// Whether a FullMassSolver covers a scheme on a scene: leapfrog steps of the consistent mass in a plane full
-/// of fluid between walls that stick.
-inline bool full_mass_lanes_cover(const Scene& scene, const Scheme& scheme) {
+/// of fluid between walls that stick. A periodic axis must be longer than a row of the mass matrix, 2 degree
+/// + 1 nodes: on a shorter one a node meets a neighbour on both sides.
+template <class Basis>
+bool full_mass_lanes_cover(const Scene& scene, const Scheme& scheme) {
+  for (const int axis : {0, 1})
+    if (scene.periodic(axis) && scene.cells[static_cast<std::size_t>(axis)] <= 2 * Basis::degree)
+      return false;
   const bool slips = std::any_of(scene.sides.begin(), scene.sides.end(), [](const Side& side) {
     return !side.periodic && (side.slip_length != 0 || side.traction != 0);
   });

@@ -17,7 +17,7 @@ std::unique_ptr<Simulation> make_solver_on(const Scene& scene, const Scheme& sch
     return std::make_unique<LaneSolver<Basis>>(scene, scheme, flip, threads);
   }
   if constexpr (Basis::X::support == Basis::Y::support)  // a plane
-    if (full_mass_lanes_cover(scene, scheme))
+    if (full_mass_lanes_cover<Basis>(scene, scheme))
       return std::make_unique<FullMassSolver<Basis>>(scene, scheme, threads);
   const auto make = [&]<class Transfer>(const Transfer& transfer) -> std::unique_ptr<Simulation> {
     return std::make_unique<Solver<Basis, Transfer>>(scene, scheme, transfer);

@@ -137,8 +137,8 @@ TEST_CASE("vector kernels give what the general solver gives: every scheme that 
 
 TEST_CASE("vector kernels: the consistent mass in leapfrog steps, periodic and between walls") {
   const int walls = GENERATE(0, 1, 2);
-  // Boxes shorter than a row of the mass matrix, too: there a node meets the same neighbour more than once.
-  const auto [nx, ny] = GENERATE(std::pair{9, 8}, std::pair{3, 8}, std::pair{2, 5}, std::pair{11, 3});
+  // As short as a row of the cubic mass matrix; shorter ones, which are none of the kernel's.
+  const auto [nx, ny] = GENERATE(std::pair{7, 18}, std::pair{9, 7}, std::pair{3, 8});
   for (const Scheme::Basis basis : bases)
     for (const bool pressure : {true, false}) {
       Scene scene = whirl(nx, ny);
