@@ -6,6 +6,7 @@
 #include "solver/lanes/lane_particles.hpp"
 #include "solver/lanes/line_mass.hpp"
 #include "solver/scene/seeding.hpp"
+#include "solver/simulation.hpp"
 #include "solver/transfer/motion.hpp"
 #include "solver/transfer/reset_clock.hpp"
 #include "solver/transfer/straight_drift.hpp"
@@ -34,21 +35,25 @@ class FullMassPasses {
   }
 
   [[nodiscard]] const std::optional<std::string>& breakdown() const { return breakdown_; }
-  [[nodiscard]] const Vec2& impulse() const { return impulse_; }
+  [[nodiscard]] Totals totals() const {
+    const KernelTotals sums = kernel_->totals();
+    return {sums.mass, of_scene(sums.momentum), impulse_, sums.kinetic_energy};
+  }
   [[nodiscard]] const Particles& particles() const {
     if (is_stale_) gather();
     return particles_;
   }
-  /// The grid with the particles' velocity mapped to it and the walls' imposed.
-  [[nodiscard]] Grid mapped_grid(double t) const {
+  /// The grid with the particles' velocity mapped to it and the walls' at t imposed.
+  [[nodiscard]] const Grid& mapped_grid(double t) const {
+    if (mapped_at_ == t) return grid_;
     prescribe([&](VectorField& v) { walls_.impose_velocity(v, t); });
     kernel_->project_aside();
-    Grid grid = grid_;
     for (int j = 0; j < layout_.axis(1).count(); ++j)
       for (int i = 0; i < layout_.axis(0).count(); ++i)
         for (int c : {0, 1})
-          grid.velocity[layout_.grid_index(i, j)][layout_.axis_of(c)] = kernel_->velocity(c)[place_of(i, j)];
-    return grid;
+          grid_.velocity[layout_.grid_index(i, j)][layout_.axis_of(c)] = kernel_->velocity(c)[place_of(i, j)];
+    mapped_at_ = t;
+    return grid_;
   }
 
   void reset_if_due(double t, double dt) {
@@ -57,6 +62,7 @@ class FullMassPasses {
     prescribe([&](VectorField& v) { walls_.impose_velocity(v, t + dt); });
     kernel_->reset();
     is_stale_ = is_on_lattice_ = true;
+    mapped_at_.reset();
   }
 
   // The passes of step_leapfrog().
@@ -64,6 +70,7 @@ class FullMassPasses {
   void drift(double, double dt) {
     is_stale_ = true;
     is_on_lattice_ = false;
+    mapped_at_.reset();
     const Motion motion = kernel_->drift(dt);
     if (!breakdown_) breakdown_ = breakdown_of(motion);
   }
@@ -192,7 +199,7 @@ class FullMassPasses {
   };
 
   const Scene scene_;  // its own: whoever made it may be gone
-  Grid grid_;          // geometry alone
+  mutable Grid grid_;  // with a velocity for readers
   LaneLayout layout_;
   WallNodes walls_;
   ResetClock clock_;
@@ -201,6 +208,7 @@ class FullMassPasses {
   const VectorField lattice_;    // where they were seeded
   mutable bool is_stale_ = true;
   bool is_on_lattice_ = true;
+  mutable std::optional<double> mapped_at_;  // the time [s] whose walls the grid's velocity has, if it stands
   std::unique_ptr<FullMassKernel> kernel_;
   std::vector<WallNode> wall_nodes_;
   mutable VectorField wall_values_;

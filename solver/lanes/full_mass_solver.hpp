@@ -40,16 +40,16 @@ class FullMassSolver final : public Simulation {
   [[nodiscard]] const Particles& particles() const override { return passes_.particles(); }
 
   [[nodiscard]] VectorField grid_field(const VectorField& points, double t) const override {
-    const Grid grid = passes_.mapped_grid(t);
+    const Grid& grid = passes_.mapped_grid(t);
     return field_at<Basis>(grid, grid.velocity, points);
   }
 
   [[nodiscard]] std::vector<Mat2> grid_gradient(const VectorField& points, double t) const override {
-    const Grid grid = passes_.mapped_grid(t);
+    const Grid& grid = passes_.mapped_grid(t);
     return gradient_at<Basis>(grid, grid.velocity, points);
   }
 
-  [[nodiscard]] Totals totals() const override { return totals_of(passes_.particles(), passes_.impulse()); }
+  [[nodiscard]] Totals totals() const override { return passes_.totals(); }
 
  private:
   FullMassPasses<Basis> passes_;

@@ -25,6 +25,11 @@ struct Balance {
   double asked[2], found[2];
 };
 
+/// Sums over the particles, per unit depth.
+struct KernelTotals {
+  double mass, momentum[2], kinetic_energy;  ///< [kg/m], [kg/s], [J/m]
+};
+
 /// The kicks of a step, each with solutions that it begins from: to the middle of it, and the whole one.
 enum class Kick { ToMiddle, Whole };
 
@@ -36,6 +41,7 @@ class FullMassKernel {
 
   /// Writes all particles in the order in which they came.
   virtual void gather(PointState* points) const = 0;
+  [[nodiscard]] virtual KernelTotals totals() = 0;
 
   [[nodiscard]] virtual int stride() const = 0;
   /// What walls prescribe of the field that is solved for next, a component; read on wall nodes alone.

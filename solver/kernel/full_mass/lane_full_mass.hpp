@@ -35,6 +35,19 @@ class LaneFullMass final : public FullMassKernel {
   }
 
   void gather(PointState* points) const override { particles_.cells().gather(points); }
+  [[nodiscard]] KernelTotals totals() override {
+    const auto [mass, momentum_0, momentum_1, energy] =
+        bands_.sum_of_cells<4>([&](Rows rows, Lanes(&sums)[4]) {
+          particles_.each_block(rows, [&](const Block& block) {
+            for (const Slot& p : particles_.cells().slots(block)) {
+              sums[0] += p.mass;
+              for (int c : {0, 1}) sums[1 + c] += p.mass * p.v[c];
+              sums[3] += 0.5 * p.mass * (p.v[0] * p.v[0] + p.v[1] * p.v[1]);
+            }
+          });
+        });
+    return {mass, {momentum_0, momentum_1}, energy};
+  }
   [[nodiscard]] int stride() const override { return lattice_.stride(); }
   double* prescribed(int component) override {
     return solve_.prescribed(static_cast<std::size_t>(component));
