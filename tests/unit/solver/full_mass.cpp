@@ -59,6 +59,35 @@ TEST_CASE("vector kernels: the consistent mass under forces that vary in space a
     }
 }
 
+TEST_CASE(
+    "the consistent mass in the kernel: who asks between steps changes no bit, and gets what is asked for") {
+  Scene scene = whirl(9, 8);
+  scene.side(Edge::Bottom) = Side::wall(Vec2(0.02, 0));
+  scene.side(Edge::Top) = Side::wall(Vec2(-0.01, 0));
+  scene.initial_velocity = [](const Vec2& x) { return Vec2(0.05 * std::sin(1e4 * x.y()), 0); };
+  Side& top = scene.side(Edge::Top);
+  top.velocity = [](double t) { return Vec2(100 * t, 0); };
+  top.acceleration = [](double) { return Vec2(100, 0); };
+  Scheme scheme{Scheme::Basis::Cubic, Scheme::Transfer::FullMass, Scheme::Stepping::Leapfrog};
+  scheme.reset_every = 3;
+  const auto left_alone = make_simulation(scene, scheme), asked = make_simulation(scene, scheme);
+  const VectorField points{{0.3 * cell, 2.2 * cell}, {1.7 * cell, 8 * cell}};  // the second on the upper wall
+  const double dt = 4e-6;
+  for (int k = 0; k < 8; ++k) {
+    for (const auto* simulation : {&left_alone, &asked}) (*simulation)->advance(k * dt, dt);
+    const double t = (k + 1) * dt;
+    CHECK(asked->grid_field(points, t)[1].x() == Approx(100 * t).epsilon(1e-13));
+    CHECK(asked->grid_field(points, 2 * t)[1].x() == Approx(200 * t).epsilon(1e-13));
+    const Totals of_kernel = asked->totals(), summed = totals_of(asked->particles(), of_kernel.impulse);
+    CHECK(of_kernel.mass == Approx(summed.mass).epsilon(1e-14));
+    CHECK((of_kernel.momentum - summed.momentum).norm() < 1e-14 * summed.mass * 0.05);
+    CHECK(of_kernel.kinetic_energy == Approx(summed.kinetic_energy).epsilon(1e-14));
+  }
+  CHECK(left_alone->particles().position == asked->particles().position);
+  CHECK(left_alone->particles().velocity == asked->particles().velocity);
+  CHECK(left_alone->particles().density == asked->particles().density);
+}
+
 TEST_CASE("the number of threads changes no bit of the consistent mass") {
   for (const auto basis : {Scheme::Basis::Linear, Scheme::Basis::Quadratic, Scheme::Basis::Cubic})
     for (const bool walls : {false, true}) {
