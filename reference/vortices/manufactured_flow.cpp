@@ -54,7 +54,7 @@ std::array<double, 2> ManufacturedFlow::acceleration(double x, double y, double 
   const double d11 = u_x, d12 = 0.5 * (u_y + v_x), d22 = v_y;
   const double d11_x = u_xx, d11_y = u_xy, d22_y = v_yy;
   const double d12_x = 0.5 * (u_xy + v_xx), d12_y = 0.5 * (u_yy + v_xy);
-  const double rate = 2 * std::hypot(d11, d12);  // d22 = -d11
+  const double rate = 2 * std::sqrt(d11 * d11 + d12 * d12);  // d22 = -d11
   const double nu = parameters_.curve.viscosity(rate);
   const double nu_slope = (parameters_.curve.slope(rate) - nu) / rate;  // d nu/d gdot, of tau = nu gdot
   const double nu_x = nu_slope * 4 * (d11 * d11_x + d12 * d12_x) / rate;

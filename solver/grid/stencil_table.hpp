@@ -39,16 +39,22 @@ struct StencilTable {
   struct Row {
     const int* node;
     const double* value;
+    const Vec2* gradient;
     int width;
     /// visit(node i, N_ip)
     template <class Visit>
     void values(Visit&& visit) const {
       for (int k = 0; k < width; ++k) visit(static_cast<std::size_t>(node[k]), value[k]);
     }
+    /// visit(node i, grad N_ip)
+    template <class Visit>
+    void gradients(Visit&& visit) const {
+      for (int k = 0; k < width; ++k) visit(static_cast<std::size_t>(node[k]), gradient[k]);
+    }
   };
   [[nodiscard]] Row stencil(std::size_t p) const {
     const std::size_t first = p * static_cast<std::size_t>(width);
-    return {node.data() + first, value.data() + first, width};
+    return {node.data() + first, value.data() + first, gradient.data() + first, width};
   }
 
  private:

@@ -25,10 +25,10 @@ inline std::vector<PointState> points_of(const Particles& particles, const LaneL
   return points;
 }
 
-/// Mass stays: nothing in a kernel changes it.
 inline void take_points(const std::vector<PointState>& points, const LaneLayout& layout,
                         Particles& particles) {
   for (std::size_t p = 0; p < points.size(); ++p) {
+    particles.mass[p] = points[p].mass;
     for (int c : {0, 1}) {
       particles.position[p][layout.axis_of(c)] = points[p].position[c];
       particles.velocity[p][layout.axis_of(c)] = points[p].velocity[c];

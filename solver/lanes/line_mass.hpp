@@ -11,16 +11,16 @@ namespace mpm {
 /// What a line's mass matrix is, and the matrix T of 2 reach + 1 diagonals that comes nearest to its inverse:
 /// column by column the least |I - M T|. Entries of the inverse itself fall off with the distance from the
 /// diagonal by 0.27, 0.43 and 0.54 a node for degree 1 to 3; cut off at the same reach it leaves 2.3 times as
-/// much for degree 3. A longer reach costs more than the iterations that it saves. Functions that walls
-/// prescribe are left out: the solves are for the others.
-inline LineMass line_mass(const Axis& axis) {
+/// much for degree 3. A longer reach costs more than the iterations that it saves. Where walls prescribe the
+/// values of their functions, these are left out: the solves are for the others.
+inline LineMass line_mass(const Axis& axis, bool walls_prescribe) {
   const Eigen::MatrixXd whole = mass_along(axis);
   const auto count = static_cast<int>(whole.rows());
   LineMass line{std::min(3 * axis.degree - 1, (count - 1) / 2), count, {}, {}};
   for (int i = 0; i < count; ++i) line.diagonal.push_back(whole(i, i));
 
   Eigen::MatrixXd mass = whole;
-  if (!axis.periodic)
+  if (!axis.periodic && walls_prescribe)
     for (const int wall : {0, count - 1}) {
       mass.row(wall).setZero();
       mass.col(wall).setZero();

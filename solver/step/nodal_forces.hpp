@@ -31,14 +31,12 @@ Vec2 add_particle_forces(Grid& grid, const Particles& particles, const VectorFie
   return total;
 }
 
-/// f_i -= sum_p (m_p/rho_p) sigma_p grad N_ip (paper Eq. 17).
-template <class Basis>
-void add_stress_forces(Grid& grid, const Particles& particles) {
+/// f_i -= sum_p (m_p/rho_p) sigma_p grad N_ip (paper Eq. 17), with the stencil_of(p).
+template <class StencilOf>
+void add_stress_forces(Grid& grid, const Particles& particles, const StencilOf& stencil_of) {
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Mat2 volume_stress = (particles.mass[p] / particles.density[p]) * particles.stress[p];
-    Stencil<Basis>(grid, particles.position[p]).gradients([&](std::size_t i, const Vec2& dn) {
-      grid.force[i] -= volume_stress * dn;
-    });
+    stencil_of(p).gradients([&](std::size_t i, const Vec2& dn) { grid.force[i] -= volume_stress * dn; });
   }
 }
 

@@ -130,7 +130,12 @@ class Passes {
     } else if (has_cell_dilatation_)
       add_cell_stress_forces<Basis>(grid_, particles_, cell_tension_);
     else
-      add_stress_forces<Basis>(grid_, particles_);
+      add_stress_forces(grid_, particles_, [&](std::size_t p) {
+        if constexpr (reads_table)
+          return table_.stencil(p);
+        else
+          return Stencil<Basis>(grid_, particles_.position[p]);
+      });
     if (scene_.free_surface) relieve_light_nodes(grid_, body, scene_.least_nodal_mass());
   }
 

@@ -21,7 +21,37 @@ constexpr double least_pivot = 1e-10;
 
 ConsistentMass::Direct::Direct(const Grid& grid)
     : matrix(pair_pattern(grid, 1)), constrained(matrix), slots(grid, matrix, 1) {
-  factor.analyzePattern(constrained);
+  const Axis& along = grid.x.count() == 1 ? grid.y : grid.x;
+  if (along.periodic)
+    factor.analyzePattern(constrained);
+  else
+    band.emplace(2 * along.count(), 2 * along.degree);
+}
+
+bool ConsistentMass::Direct::factorise() {
+  if (!band) {
+    factor.factorize(constrained);
+    return factor.info() == Eigen::Success &&
+           factor.vectorD().minCoeff() > least_pivot * factor.vectorD().maxCoeff();
+  }
+  band->set_zero();
+  for (int column = 0; column < constrained.outerSize(); ++column)
+    for (SparseMatrix::InnerIterator entry(constrained, column); entry; ++entry)
+      for (int c : {0, 1})
+        if (const int row = static_cast<int>(entry.row()); row >= column)
+          band->at(2 * row + c, 2 * column + c) = entry.value();
+  band->factorise();
+  double largest = 0;
+  for (int i = 0; i < band->size(); ++i) largest = std::max(largest, band->at(i, i));
+  for (int i = 0; i < band->size(); ++i)
+    if (!(band->at(i, i) > least_pivot * largest)) return false;
+  return true;
+}
+
+void ConsistentMass::Direct::solve(VectorField& field) const {
+  if (band) return band->solve(field.front().data());
+  const Eigen::MatrixX2d right_side = rows_of(field);
+  rows_of(field) = factor.solve(right_side);
 }
 
 void ConsistentMass::Direct::assemble(const StencilTable& table, const ScalarField& particle_mass) {
@@ -79,9 +109,7 @@ void ConsistentMass::fix_nodes() {
   }
   direct_->constrained = direct_->matrix;
   decouple(direct_->constrained, is_fixed_, largest_);
-  direct_->factor.factorize(direct_->constrained);
-  direct_->holds = direct_->factor.info() == Eigen::Success &&
-                   direct_->factor.vectorD().minCoeff() > least_pivot * direct_->factor.vectorD().maxCoeff();
+  direct_->holds = direct_->factorise();
 }
 
 void ConsistentMass::solve_from(VectorField& guess, VectorField& field, const ScalarField& nodal_mass) {
@@ -102,21 +130,19 @@ void ConsistentMass::solve_from(VectorField& guess, VectorField& field, const Sc
 }
 
 void ConsistentMass::solve_direct(VectorField& guess, VectorField& field) {
-  auto rows = rows_of(field);
-  rows.noalias() -= direct_->matrix * rows_of(fixed_);
+  for (std::size_t i = 0; i < field.size(); ++i)
+    if (!fixed_[i].isZero(0))
+      for (SparseMatrix::InnerIterator entry(direct_->matrix, static_cast<int>(i)); entry; ++entry)
+        field[static_cast<std::size_t>(entry.row())] -= entry.value() * fixed_[i];
   for (std::size_t i = 0; i < field.size(); ++i)
     if (is_fixed_[i]) field[i] = largest_ * fixed_[i];
-  const Eigen::MatrixX2d right_side = rows;
-  if (direct_->holds) {
-    rows = direct_->factor.solve(right_side);
-    return;
-  }
+  if (direct_->holds) return direct_->solve(field);
   Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper> iteration;
   iteration.setTolerance(tolerance);
   iteration.setMaxIterations(most_iterations);
   iteration.compute(direct_->constrained);
-  const Eigen::MatrixX2d start = rows_of(guess);
-  rows = iteration.solveWithGuess(right_side, start);
+  const Eigen::MatrixX2d right_side = rows_of(field), start = rows_of(guess);
+  rows_of(field) = iteration.solveWithGuess(right_side, start);
 }
 
 void ConsistentMass::iterate(const VectorField& guess, VectorField& field) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "solver/grid/banded_matrix.hpp"
 #include "solver/grid/boundary.hpp"
 #include "solver/grid/sparse_pattern.hpp"
 #include "solver/grid/stencil_matrix.hpp"
@@ -64,9 +65,14 @@ class ConsistentMass {
   struct Direct {
     explicit Direct(const Grid& grid);
     void assemble(const StencilTable& table, const ScalarField& particle_mass);
+    /// Factorises the constrained matrix; false where it is singular but for round-off.
+    [[nodiscard]] bool factorise();
+    void solve(VectorField& field) const;
 
     SparseMatrix matrix, constrained;
     PairSlots slots;
+    // Between walls a band of both components in turn; general where the strip closes.
+    std::optional<BandedMatrix> band;
     Eigen::SimplicialLDLT<SparseMatrix> factor;
     bool holds = false;
   };

@@ -5,6 +5,7 @@
 
 #include "solver/scene/seeding.hpp"
 #include "solver/transfer/consistent_mass.hpp"
+#include "solver/transfer/reset_clock.hpp"
 #include "solver/transfer/straight_drift.hpp"
 #include "solver/transfer/transfer.hpp"
 
@@ -20,8 +21,7 @@ template <class Basis, class Transfer>
 class ParticleReset {
  public:
   ParticleReset(const Scene& scene, const Scheme& scheme, const Grid& grid, const WallNodes& walls)
-      : every_(scheme.reset_every),
-        most_strain_(scheme.reset_strain),
+      : clock_(scheme),
         needs_gradients_(needs_gradients(scene)),
         velocity_mass_(grid, walls),
         density_mass_(grid) {
@@ -35,20 +35,16 @@ class ParticleReset {
       if (walls.is_wall(i)) weight_[i].setZero();
   }
 
-  /// Whether the particles are due for it, after a step of dt [s] at whose end the fluid is strained at a
-  /// rate of strain_rate() where that is largest [1/s].
+  /// As ResetClock.
   template <class StrainRate>
   [[nodiscard]] bool due(double dt, const StrainRate& strain_rate) {
-    ++steps_;
-    if (most_strain_ > 0) strain_ += dt * strain_rate();
-    return (every_ > 0 && steps_ >= every_) || (most_strain_ > 0 && strain_ >= most_strain_);
+    return clock_.due(dt, strain_rate);
   }
 
   /// Resets the particles at time t [s]; uses the grid's masses and velocities as work space and leaves the
   /// projected velocity there.
   void operator()(double t, const WallNodes& walls, Grid& grid, Particles& particles) {
-    steps_ = 0;
-    strain_ = 0;
+    clock_.restart();
     project(t, walls, grid, particles);
     const Vec2 momentum = total_momentum(particles);
     for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -125,12 +121,9 @@ class ParticleReset {
     for (std::size_t p = 0; p < particles.size(); ++p) particles.velocity[p] += weight[p] * missing;
   }
 
-  long every_;          // steps; 0: not by steps
-  double most_strain_;  // 0: not by strain
+  ResetClock clock_;
   bool needs_gradients_;
-  long steps_ = 0;     // since the last reset
-  double strain_ = 0;  // since the last reset, where the fluid is strained fastest
-  double mass_ = 0;    // of all particles at the start, which nothing changes [kg/m]
+  double mass_ = 0;  // of all particles at the start, which nothing changes [kg/m]
   VectorField position_;
   ScalarField volume_;  // [m2]
   VectorField weight_, density_;

@@ -20,12 +20,12 @@ class Forecast {
                 {0, LatticeVector(lattice)},
                 {0, LatticeVector(lattice)}}} {}
 
-  /// x <- base + what the difference will be at a time [s] later than those known, whatever the steps between
-  /// them; base alone as long as none is known.
-  void read(const Bands& bands, double time, const LatticeVector& base, LatticeVector& x) const {
+  /// x <- base + a part of what the difference will be at a time [s] later than those known, whatever the
+  /// steps between them; base alone as long as none is known.
+  void read(const Bands& bands, double time, const LatticeVector& base, LatticeVector& x, double part) const {
     std::array<double, most> weight{};  // Lagrange's
     for (std::size_t k = 0; k < count_; ++k) {
-      weight[k] = 1;
+      weight[k] = part;
       for (std::size_t other = 0; other < count_; ++other)
         if (other != k) weight[k] *= (time - known_[other].time) / (known_[k].time - known_[other].time);
     }

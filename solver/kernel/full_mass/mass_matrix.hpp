@@ -44,9 +44,6 @@ template <int degree>
 class MassMatrix {
  public:
   explicit MassMatrix(const Lattice& lattice) : lattice_(lattice), entries_(lattice) {
-    for (int dj = 0; dj <= degree; ++dj)
-      for (int di = dj == 0 ? 0 : -degree; di <= degree; ++di)
-        distance_[number(di, dj)] = dj * lattice.stride() + di;
     // Neighbouring functions along the lanes add to overlapping vectors: they come as late as possible after
     // each other.
     for (int k = 0; k < support; ++k)
@@ -54,7 +51,7 @@ class MassMatrix {
         for (int m = l; m < support; ++m)
           for (int n = m == l ? k : 0; n < support; ++n)
             shares_.push_back(
-                {static_cast<std::ptrdiff_t>(number(n - k, m - l) * entries_.pitch()) + l * lattice.stride() +
+                {number(n - k, m - l) * static_cast<std::ptrdiff_t>(entries_.pitch()) + l * lattice.stride() +
                      k,
                  CellMass<degree>::pair(l, m) * CellMass<degree>::pairs + CellMass<degree>::pair(k, n)});
   }
@@ -70,40 +67,62 @@ class MassMatrix {
     bands.each(static_cast<int>(distances), [&](int d) {
       double* const entries = entries_[static_cast<std::size_t>(d)];
       lattice_.join_images(entries);
-      for (int row = 0; row < lattice_.count(1); ++row) lattice_.fill_margin(entries, row);
+      lattice_.fill_margins_below(entries, d <= degree ? 0 : (d - degree - 1) / reach + 1);
     });
   }
 
   /// M_ii of all nodes.
   [[nodiscard]] const double* diagonal() const { return entries_[0]; }
 
-  /// (M x)_i of both components in the vector of nodes at i; x with its margin set.
-  [[gnu::always_inline]] void row(int i, const double* const x[2], Lanes (&product)[2]) const {
-    const double* const entry = entries_[0] + i;
-    const double *const x_0 = x[0] + i, *const x_1 = x[1] + i;
-    const std::size_t pitch = entries_.pitch();
-    const Lanes own = load(entry);
-    Lanes ahead[2] = {own * load(x_0), own * load(x_1)}, behind[2] = {0, 0};
-    unroll<static_cast<int>(distances) - 1>([&](int before) {
-      const int d = before + 1;
-      const std::ptrdiff_t away = distance_[d];
-      const double* const of_d = entry + static_cast<std::size_t>(d) * pitch;
-      const Lanes a = load(of_d), b = load(of_d - away);
-      ahead[0] += a * load(x_0 + away);
-      ahead[1] += a * load(x_1 + away);
-      behind[0] += b * load(x_0 - away);
-      behind[1] += b * load(x_1 - away);
-    });
-    for (int c : {0, 1}) product[c] = ahead[c] + behind[c];
+  /// visit(i, (M x)_i) with both components in the vectors of nodes of some rows; x with its margin set.
+  template <class Visit>
+  [[gnu::always_inline]] void multiply(Rows rows, const double* const x[2], Visit&& visit) const {
+    int row = rows.begin;
+    for (; row + at_once <= rows.end; row += at_once) multiply_rows<at_once>(row, x, visit);
+    for (; row < rows.end; ++row) multiply_rows<1>(row, x, visit);
   }
 
  private:
   static constexpr int support = degree + 1, reach = 2 * degree + 1;
   static constexpr std::size_t distances = static_cast<std::size_t>(reach * reach / 2 + 1);
 
+  /// Rows whose products share what they read of x.
+  static constexpr int at_once = 4;
+
+  template <int rows, class Visit>
+  [[gnu::always_inline]] void multiply_rows(int first_row, const double* const x[2], Visit&& visit) const {
+    const std::ptrdiff_t stride = lattice_.stride(), pitch = static_cast<std::ptrdiff_t>(entries_.pitch());
+    lattice_.each_vector({first_row, first_row + 1}, [&](int i) {
+      // Two sums each, of the entries of nodes themselves and of those behind: independent of each other.
+      Lanes ahead[rows][2], behind[rows][2];
+      for (int row = 0; row < rows; ++row)
+        for (int c : {0, 1}) ahead[row][c] = behind[row][c] = 0;
+      unroll<rows + 2 * degree>([&](int line) {
+        unroll<reach>([&](int column) {
+          const int di = column - degree;
+          const std::ptrdiff_t at = i + (line - degree) * stride + di;
+          const Lanes x_at[2] = {load(x[0] + at), load(x[1] + at)};
+          unroll<rows>([&](int row) {
+            const int dj = line - degree - row;
+            if (dj < -degree || dj > degree) return;
+            const bool is_ahead = dj > 0 || (dj == 0 && di >= 0);
+            const double* const entry = is_ahead ? entries_[0] + number(di, dj) * pitch + i + row * stride
+                                                 : entries_[0] + number(-di, -dj) * pitch + at;
+            const Lanes m = load(entry);
+            for (int c : {0, 1}) (is_ahead ? ahead : behind)[row][c] += m * x_at[c];
+          });
+        });
+      });
+      for (int row = 0; row < rows; ++row) {
+        const Lanes product[2] = {ahead[row][0] + behind[row][0], ahead[row][1] + behind[row][1]};
+        visit(i + row * static_cast<int>(stride), product);
+      }
+    });
+  }
+
   /// Zero for a node itself.
-  static std::size_t number(int di, int dj) {
-    return static_cast<std::size_t>(dj == 0 ? di : degree + 1 + (dj - 1) * reach + di + degree);
+  static constexpr std::ptrdiff_t number(int di, int dj) {
+    return dj == 0 ? di : degree + 1 + (dj - 1) * reach + di + degree;
   }
 
   /// From where a block begins to the entries to which it adds one of its sums.
@@ -114,7 +133,6 @@ class MassMatrix {
 
   const Lattice& lattice_;
   LatticeFields<distances> entries_;
-  std::ptrdiff_t distance_[distances];
   std::vector<Share> shares_;
 };
 

@@ -12,13 +12,15 @@ namespace mpm::MPM_ISA {
 template <int degree>
 class MassSolve {
  public:
-  MassSolve(const Lattice& lattice, const Bands& bands, const FullMassSetup& setup)
+  /// With the mass of a uniform fluid, and the nodes whose values are prescribed (FullMassSetup).
+  MassSolve(const Lattice& lattice, const Bands& bands, const MassMatrix<degree>& matrix,
+            const std::array<LineMass, 2>& line, const std::vector<int>& walls, double negligible_mass)
       : lattice_(lattice),
         bands_(bands),
-        matrix_(lattice),
-        inverse_(lattice, setup.mass),
-        negligible_mass_(setup.negligible_mass),
-        has_walls_(!setup.wall_nodes.empty()),
+        matrix_(matrix),
+        inverse_(lattice, line),
+        negligible_mass_(negligible_mass),
+        has_walls_(!walls.empty()),
         node_(lattice),
         prescribed_(lattice),
         residual_(lattice),
@@ -27,49 +29,50 @@ class MassSolve {
         product_(lattice) {
     for (int j = 0; j < lattice.count(1); ++j)
       for (int k = 0; k < lattice.count(0); ++k)
-        node_[uniform][j * lattice.stride() + k] = setup.mass[0].diagonal[static_cast<std::size_t>(k)] *
-                                                   setup.mass[1].diagonal[static_cast<std::size_t>(j)];
-    for (const int wall : setup.wall_nodes) {
-      const int count = lattice.count(0);
-      node_[uniform][wall / count * lattice.stride() + wall % count] = 0;
-    }
+        node_[uniform][j * lattice.stride() + k] =
+            line[0].diagonal[static_cast<std::size_t>(k)] * line[1].diagonal[static_cast<std::size_t>(j)];
+    for (const int wall : walls) node_[uniform][lattice.place_of(wall)] = 0;
   }
 
-  MassMatrix<degree>& matrix() { return matrix_; }
-  /// Values on wall nodes; zero elsewhere.
+  /// Values on walls' nodes; zero elsewhere.
   double* prescribed(std::size_t c) { return prescribed_[c]; }
   /// Of all solves.
   [[nodiscard]] long iterations() const { return iterations_; }
 
   /// When the matrix is complete: functions that hold next to no mass are left out, their values are zero.
-  void fix_nodes() {
+  /// `mass` is sum_p N_ip m_p.
+  void fix_nodes(const double* mass) {
     const double* const m = matrix_.diagonal();
     const double negligible = negligible_mass_ * largest_of(m);
-    bands_.each_vector([&](int i) {
+    const Both of_free_nodes = bands_.sum([&](int i, Lanes(&sum)[2]) {
       const Lanes m_ii = load(m + i), t_ii = load(node_[uniform] + i);
       const Mask is_free = (t_ii > 0) & (m_ii > negligible);
       store(node_[free] + i, select(is_free, 1, 0));
       store(node_[scale] + i, select(is_free, sqrt(t_ii / select(is_free, m_ii, 1)), 0));
+      sum[0] += select(is_free, load(mass + i), 0);
     });
+    free_mass_ = of_free_nodes.of[0];
   }
 
-  /// x <- M^-1 b, from the value that x has; b stays. Without walls the total of b is kept to round-off.
-  /// `mass` is sum_p N_ip m_p. What a solution is added to need not be known better than that is: the
-  /// residual r ends with r P^-1 r below 1e-28 (b P^-1 b + beside), `beside` the square y M y of that other
-  /// field, or 0.
+  /// x <- M^-1 b, from the value that x has; b stays. Without walls the total of b is kept to round-off. What
+  /// a solution is added to need not be known better than that is: the residual r ends with r P^-1 r below
+  /// 1e-28 (x M x + beside), `beside` the square y M y of that other field, or 0.
   Balance operator()(const double* mass, const LatticeVector& b, LatticeVector& x, const Both& beside) {
     // Beyond the last node of a row b is zero.
-    const Both asked = bands_.sum([&](int i, Lanes(&sum)[2]) {
+    const Both asked = bands_.sum_with_margins(x, [&](int i, Lanes(&sum)[2]) {
       for (std::size_t c : {0, 1}) {
         sum[c] += load(b[c] + i);
         store(x[c] + i, select(is_free(i), load(x[c] + i), load(prescribed_[c] + i)));
       }
     });
     iterate(b, x, beside);
-    if (!has_walls_) keep_total(asked, mass, x);
-    fill_margins(x);
-    const Both found = bands_.sum([&](int i, Lanes(&sum)[2]) {
-      for (std::size_t c : {0, 1}) sum[c] += load(mass + i) * load(x[c] + i);
+    const Both missing = has_walls_ ? Both{{0, 0}} : missing_velocity(asked, mass, x);
+    const Both found = bands_.sum_with_margins(x, [&](int i, Lanes(&sum)[2]) {
+      for (std::size_t c : {0, 1}) {
+        const Lanes mended = load(x[c] + i) + missing.of[c] * load(node_[free] + i);
+        store(x[c] + i, mended);
+        sum[c] += load(mass + i) * mended;
+      }
     });
     return {{asked.of[0], asked.of[1]}, {found.of[0], found.of[1]}};
   }
@@ -87,77 +90,72 @@ class MassSolve {
   }
 
   void iterate(const LatticeVector& b, LatticeVector& x, const Both& beside) {
-    Both enough = precondition([&](int row) { begin_residual(row, b); });
-    for (int c : {0, 1}) enough.of[c] = tolerance * tolerance * (enough.of[c] + beside.of[c]);
-    fill_margins(x);
-    Both size = precondition([&](int row) { subtract_product(row, b, x); });
+    // Of the solution x + M^-1 r: x M x + 2 x r + r M^-1 r.
+    Both enough = begin_residual(b, x);
+    Both size = precondition();
+    for (int c : {0, 1})
+      enough.of[c] = tolerance * tolerance * (std::max(enough.of[c], 0.0) + size.of[c] + beside.of[c]);
     turn({{0, 0}});
     // Once at least: a forecast that is near enough by itself would be what the next ones are made from, and
     // their errors would add up.
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       if (iteration > 0 && !exceeds(size, enough)) break;
-      const Both step = over(size, multiply_direction());
-      const Both next = precondition([&](int row) { advance(row, step, x); });
+      advance(over(size, multiply_direction()), x);
+      const Both next = precondition();
       turn(over(next, size));
       size = next;
       ++iterations_;
     }
   }
 
-  // Each of these is for one row of nodes, or for all.
+  // What changes the residual sums it along its rows for precondition(), too.
 
-  /// r = b - M x of x = 0 on free nodes.
-  void begin_residual(int row, const LatticeVector& b) {
-    if (has_walls_) return subtract_product(row, b, prescribed_);
-    lattice_.each_vector(row, [&](int i) {
-      for (std::size_t c : {0, 1}) store(residual_[c] + i, load(node_[free] + i) * load(b[c] + i));
-    });
-  }
-
-  /// r = b - M x on free nodes.
-  void subtract_product(int row, const LatticeVector& b, const LatticeVector& x) {
+  /// r = b - M x on free nodes; returns x M x + 2 x r.
+  Both begin_residual(const LatticeVector& b, const LatticeVector& x) {
     const double* const of[2] = {x[0], x[1]};
-    lattice_.each_vector(row, [&](int i) {
-      Lanes product[2];
-      matrix_.row(i, of, product);
-      for (std::size_t c : {0, 1})
-        store(residual_[c] + i, load(node_[free] + i) * (load(b[c] + i) - product[c]));
+    return bands_.sum_of_rows([&](Rows rows, Lanes(&sum)[2]) {
+      matrix_.multiply(rows, of, [&](int i, const Lanes(&product)[2]) {
+        for (std::size_t c : {0, 1}) {
+          const Lanes r = load(node_[free] + i) * (load(b[c] + i) - product[c]);
+          store(residual_[c] + i, r);
+          sum[c] += load(x[c] + i) * (product[c] + 2 * r);
+        }
+      });
+      inverse_.sum_along(rows, node_[scale], residual_);
     });
   }
 
   /// q = M d on free nodes; returns d q.
   Both multiply_direction() {
     const double* const d[2] = {direction_[0], direction_[1]};
-    return bands_.sum([&](int i, Lanes(&sum)[2]) {
-      Lanes product[2];
-      matrix_.row(i, d, product);
-      for (std::size_t c : {0, 1}) {
-        const Lanes q = load(node_[free] + i) * product[c];
-        store(product_[c] + i, q);
-        sum[c] += q * load(d[c] + i);
-      }
+    return bands_.sum_of_rows([&](Rows rows, Lanes(&sum)[2]) {
+      matrix_.multiply(rows, d, [&](int i, const Lanes(&product)[2]) {
+        for (std::size_t c : {0, 1}) {
+          const Lanes q = load(node_[free] + i) * product[c];
+          store(product_[c] + i, q);
+          sum[c] += q * load(d[c] + i);
+        }
+      });
     });
   }
 
   /// x += step d, r -= step q.
-  void advance(int row, const Both& step, LatticeVector& x) {
-    lattice_.each_vector(row, [&](int i) {
-      for (std::size_t c : {0, 1}) {
-        store(x[c] + i, load(x[c] + i) + step.of[c] * load(direction_[c] + i));
-        store(residual_[c] + i, load(residual_[c] + i) - step.of[c] * load(product_[c] + i));
-      }
+  void advance(const Both& step, LatticeVector& x) {
+    bands_.each_rows([&](Rows rows) {
+      lattice_.each_vector(rows, [&](int i) {
+        for (std::size_t c : {0, 1}) {
+          store(x[c] + i, load(x[c] + i) + step.of[c] * load(direction_[c] + i));
+          store(residual_[c] + i, load(residual_[c] + i) - step.of[c] * load(product_[c] + i));
+        }
+      });
+      inverse_.sum_along(rows, node_[scale], residual_);
     });
   }
 
-  /// set_residual(row), then z = P^-1 r; returns r z.
-  template <class SetResidual>
-  Both precondition(SetResidual&& set_residual) {
-    bands_.each_row([&](int row) {
-      set_residual(row);
-      inverse_.sum_along(row, node_[scale], residual_);
-    });
-    return bands_.sum_of_rows([&](int row, Lanes(&sum)[2]) {
-      inverse_.sum_across(row, node_[scale], [&](int i, const Lanes(&z)[2]) {
+  /// z = P^-1 r; returns r z.
+  Both precondition() {
+    return bands_.sum_of_rows([&](Rows rows, Lanes(&sum)[2]) {
+      inverse_.sum_across(rows, node_[scale], [&](int i, const Lanes(&z)[2]) {
         for (std::size_t c : {0, 1}) {
           store(z_[c] + i, z[c]);
           sum[c] += load(residual_[c] + i) * z[c];
@@ -168,53 +166,40 @@ class MassSolve {
 
   /// d = z + by d, with its margin.
   void turn(const Both& by) {
-    bands_.each_row([&](int row) {
-      lattice_.each_vector(row, [&](int i) {
-        for (std::size_t c : {0, 1})
-          store(direction_[c] + i, load(z_[c] + i) + by.of[c] * load(direction_[c] + i));
-      });
-      for (std::size_t c : {0, 1}) lattice_.fill_margin(direction_[c], row);
+    bands_.each_vector_with_margins(direction_, [&](int i) {
+      for (std::size_t c : {0, 1})
+        store(direction_[c] + i, load(z_[c] + i) + by.of[c] * load(direction_[c] + i));
     });
   }
 
-  void fill_margins(LatticeVector& x) const {
-    bands_.each_row([&](int row) {
-      for (std::size_t c : {0, 1}) lattice_.fill_margin(x[c], row);
-    });
-  }
-
-  /// Adds the uniform field that makes up for what the iteration left: sum_i (M x)_i = sum_i m_i x_i.
-  void keep_total(const Both& asked, const double* mass, LatticeVector& x) {
-    const Both total =
-        bands_.sum([&](int i, Lanes(&sum)[2]) { sum[0] += load(node_[free] + i) * load(mass + i); });
+  /// The uniform field that makes up for what the iteration left: sum_i (M x)_i = sum_i m_i x_i.
+  Both missing_velocity(const Both& asked, const double* mass, const LatticeVector& x) const {
     const Both found = bands_.sum([&](int i, Lanes(&sum)[2]) {
-      for (std::size_t c : {0, 1}) sum[c] += load(node_[free] + i) * load(mass + i) * load(x[c] + i);
+      for (std::size_t c : {0, 1}) sum[c] += load(mass + i) * load(x[c] + i);
     });
-    bands_.each_vector([&](int i) {
-      for (std::size_t c : {0, 1}) {
-        const Lanes missing = (asked.of[c] - found.of[c]) / total.of[0];
-        store(x[c] + i, load(x[c] + i) + missing * load(node_[free] + i));
-      }
-    });
+    return over({{asked.of[0] - found.of[0], asked.of[1] - found.of[1]}}, {{free_mass_, free_mass_}});
   }
 
   [[nodiscard]] Mask is_free(int i) const { return load(node_[free] + i) > 0; }
   /// Over the nodes themselves: the margin holds images.
   [[nodiscard]] double largest_of(const double* field) const {
     std::vector<double> of_row(static_cast<std::size_t>(lattice_.count(1)));
-    bands_.each_row([&](int row) {
-      const double* const begin = field + row * lattice_.stride();
-      of_row[static_cast<std::size_t>(row)] = *std::max_element(begin, begin + lattice_.count(0));
+    bands_.each_rows([&](Rows rows) {
+      for (int row = rows.begin; row < rows.end; ++row) {
+        const double* const begin = field + row * lattice_.stride();
+        of_row[static_cast<std::size_t>(row)] = *std::max_element(begin, begin + lattice_.count(0));
+      }
     });
     return *std::max_element(of_row.begin(), of_row.end());
   }
 
   const Lattice& lattice_;
   const Bands& bands_;
-  MassMatrix<degree> matrix_;
+  const MassMatrix<degree>& matrix_;
   UniformInverse inverse_;
   double negligible_mass_;
   bool has_walls_;
+  double free_mass_ = 0;  // of the nodes that are free [kg/m]
   long iterations_ = 0;
   static constexpr std::size_t free = 0;   // one; zero where prescribed, or without mass, or beyond the nodes
   static constexpr std::size_t scale = 1;  // (T_ii/M_ii)^1/2 [m/kg^1/2] where free, else zero

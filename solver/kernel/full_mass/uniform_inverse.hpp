@@ -14,58 +14,76 @@ namespace mpm::MPM_ISA {
 class UniformInverse {
  public:
   UniformInverse(const Lattice& lattice, const std::array<LineMass, 2>& mass)
-      : lattice_(lattice), reach_{mass[0].reach, mass[1].reach}, along_(lattice) {
-    const int count = mass[0].count, vectors = (count + width - 1) / width;
-    taps_along_.assign(static_cast<std::size_t>(vectors * (2 * reach_[0] + 1)), 0);
+      : lattice_(lattice),
+        reach_(mass[0].reach),
+        room_(Lattice::whole_vectors(reach_)),
+        taps_(2 * reach_ + 1),
+        along_(lattice) {
+    const int count = lattice.count(0), rows = lattice.count(1), vectors = (count + width - 1) / width;
+    taps_along_.assign(static_cast<std::size_t>(vectors * taps_), 0);
     for (int i = 0; i < count; ++i)
-      for (int d = 0; d <= 2 * reach_[0]; ++d)
-        taps_along_[static_cast<std::size_t>(i / width * (2 * reach_[0] + 1) + d)][i % width] =
+      for (int d = 0; d < taps_; ++d)
+        taps_along_[static_cast<std::size_t>(i / width * taps_ + d)][i % width] =
             mass[0].inverse[static_cast<std::size_t>(d * count + i)];
-    taps_across_ = mass[1].inverse;
+    for (int row = 0; row < rows; ++row) {
+      first_term_.push_back(static_cast<int>(terms_.size()));
+      for (int d = -mass[1].reach; d <= mass[1].reach; ++d)
+        if (lattice.periodic(1) || (row + d >= 0 && row + d < rows))
+          terms_.push_back({mass[1].inverse[static_cast<std::size_t>((d + mass[1].reach) * rows + row)],
+                            ((row + d + rows) % rows - row) * lattice.stride()});
+    }
+    first_term_.push_back(static_cast<int>(terms_.size()));
   }
 
-  /// The sum along a row of S r, S the scale of every node.
-  void sum_along(int row, const double* scale, const LatticeVector& r) {
-    const int count = lattice_.count(0), reach = reach_[0], first = row * lattice_.stride();
-    // With images around it; as long as the longest row and reach.
-    thread_local std::vector<double> padded[2];
-    for (std::size_t c : {0, 1}) {
-      padded[c].resize(static_cast<std::size_t>(count + 2 * reach + 2 * width));
-      double* const middle = padded[c].data() + reach;
-      for (int i = 0; i < count; i += width)
-        store(middle + i, load(scale + first + i) * load(r[c] + first + i));
-      for (int d = 1; d <= reach; ++d) {
-        middle[-d] = lattice_.periodic(0) ? middle[(count - d % count) % count] : 0;
-        middle[count - 1 + d] = lattice_.periodic(0) ? middle[(d - 1) % count] : 0;
+  /// The sums along some rows of S r, S the scale of every node.
+  void sum_along(Rows rows, const double* scale, const LatticeVector& r) {
+    const int count = lattice_.count(0);
+    const auto length = static_cast<std::size_t>(count + 2 * room_ + 2 * width);
+    // With images around them. All rows before any sum: one that is read across vectors just written waits.
+    thread_local std::vector<double> padded;
+    padded.resize(2 * static_cast<std::size_t>(rows.end - rows.begin) * length);
+    double* middle = padded.data() + room_;
+    for (int row = rows.begin; row < rows.end; ++row)
+      for (std::size_t c : {0, 1}) {
+        const int first = row * lattice_.stride();
+        for (int i = 0; i < count; i += width)
+          store(middle + i, load(scale + first + i) * load(r[c] + first + i));
+        // Whole vectors, of which what is within reach is read.
+        for (int k = 0; k < room_; k += width) {
+          store(middle - room_ + k, lattice_.periodic(0) ? load(middle + count - room_ + k) : 0);
+          store(middle + count + k, lattice_.periodic(0) ? load(middle + k) : 0);
+        }
+        middle += length;
       }
-    }
-    const Lanes* tap = taps_along_.data();
-    for (int i = 0; i < count; i += width) {
-      Lanes sum[2] = {0, 0};
-      for (int d = 0; d <= 2 * reach; ++d, ++tap)
-        for (std::size_t c : {0, 1}) sum[c] += *tap * load(padded[c].data() + i + d);
-      for (std::size_t c : {0, 1}) store(along_[c] + first + i, sum[c]);
+    const double* begin[2];
+    for (std::size_t c : {0, 1}) begin[c] = padded.data() + c * length + room_ - reach_;
+    for (int row = rows.begin; row < rows.end; ++row) {
+      const Lanes* tap = taps_along_.data();
+      for (int i = 0; i < count; i += width) {
+        Lanes sum[2] = {0, 0};
+        for (int d = 0; d < taps_; ++d, ++tap)
+          for (std::size_t c : {0, 1}) sum[c] += *tap * load(begin[c] + i + d);
+        for (std::size_t c : {0, 1}) store(along_[c] + row * lattice_.stride() + i, sum[c]);
+      }
+      for (const double*& of_component : begin) of_component += 2 * length;
     }
   }
 
-  /// visit(i, z) with z = S P S r in the vectors of a row of nodes, when the sums along all rows are done.
+  /// visit(i, z) with z = S P S r in the vectors of some rows, when the sums along all are done.
   template <class Visit>
-  [[gnu::always_inline]] void sum_across(int row, const double* scale, Visit&& visit) const {
-    const int count = lattice_.count(1), reach = reach_[1];
-    Term terms[2 * most_reach + 1];
-    int used = 0;
-    for (int d = -reach; d <= reach; ++d)
-      if (lattice_.periodic(1) || (row + d >= 0 && row + d < count))
-        terms[used++] = {taps_across_[static_cast<std::size_t>((d + reach) * count + row)],
-                         ((row + d + count) % count - row) * lattice_.stride()};
-    lattice_.each_vector(row, [&](int i) {
-      Lanes sum[2] = {0, 0};
-      for (int k = 0; k < used; ++k)
-        for (std::size_t c : {0, 1}) sum[c] += terms[k].tap * load(along_[c] + i + terms[k].away);
-      const Lanes s = load(scale + i);
-      const Lanes z[2] = {s * sum[0], s * sum[1]};
-      visit(i, z);
-    });
+  [[gnu::always_inline]] void sum_across(Rows rows, const double* scale, Visit&& visit) const {
+    for (int row = rows.begin; row < rows.end; ++row) {
+      const Term* const begin = terms_.data() + first_term_[static_cast<std::size_t>(row)];
+      const Term* const end = terms_.data() + first_term_[static_cast<std::size_t>(row) + 1];
+      lattice_.each_vector({row, row + 1}, [&](int i) {
+        Lanes sum[2] = {0, 0};
+        for (const Term* term = begin; term != end; ++term)
+          for (std::size_t c : {0, 1}) sum[c] += term->tap * load(along_[c] + i + term->away);
+        const Lanes s = load(scale + i);
+        const Lanes z[2] = {s * sum[0], s * sum[1]};
+        visit(i, z);
+      });
+    }
   }
 
  private:
@@ -76,9 +94,10 @@ class UniformInverse {
   };
 
   const Lattice& lattice_;
-  int reach_[2];
+  int reach_, room_, taps_;        // along a row
   std::vector<Lanes> taps_along_;  // of the nodes of a vector, one vector after another
-  std::vector<double> taps_across_;
+  std::vector<Term> terms_;        // across, of one row after another
+  std::vector<int> first_term_;    // of a row
   LatticeVector along_;
 };
 

@@ -68,10 +68,15 @@ FullMassCount full_mass_count() {
   const CountedScene scene = scene_of(degree);
   const std::vector<mpm::PointState> points = whirling(scene);
   std::vector<double> functions[2];
-  const mpm::LineMass mass = mpm::line_mass(scene.axis(0));
+  const mpm::LineMass mass = mpm::line_mass(scene.axis(0), false);
   mpm::ThreadTeam alone(1);
-  mpm::counted::LaneFullMass<degree> kernel(
-      {setup_of(scene, functions, points), {mass, mass}, {}, mpm::negligible_mass, &alone});
+  mpm::counted::LaneFullMass<degree> kernel({setup_of(scene, functions, points),
+                                             {mass, mass},
+                                             {mass, mass},
+                                             {},
+                                             false,
+                                             mpm::negligible_mass,
+                                             &alone});
   const double dt = sonic_step(cells);
   long iterations_before = 0;
   const double operations = operations_of(

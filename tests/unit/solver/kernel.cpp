@@ -6,120 +6,10 @@
 #include "solver/step/solver.hpp"
 #include "solver/step/time_step.hpp"
 #include "tests/catch.hpp"
+#include "tests/unit/solver/kernel_comparison.hpp"
 
 using namespace mpm;
-
-namespace {
-
-constexpr double cell = 1e-4;
-
-Scene box(int nx, int ny) {
-  Scene scene;
-  scene.size = {cell * nx, cell * ny};
-  scene.cells = {nx, ny};
-  scene.fluid.rheology = Newtonian{1e-3};
-  return scene;
-}
-
-/// A flow in which all components of velocity and stress matter, fast enough to cross a tenth of a cell a
-/// step.
-Scene whirl(int nx, int ny) {
-  Scene scene = box(nx, ny);
-  const Vec2 k = 2 * std::numbers::pi * scene.size.cwiseInverse();
-  scene.initial_velocity = [=](const Vec2& x) {
-    return Vec2(0.1 + 0.05 * std::sin(k.y() * x.y()), -0.07 + 0.04 * std::cos(k.x() * x.x()));
-  };
-  scene.body_acceleration = [](double t) { return Vec2(3 + 100 * t, -2); };
-  return scene;
-}
-
-template <class Basis>
-std::unique_ptr<Simulation> plain_solver(const Scene& scene, const Scheme& scheme) {
-  switch (scheme.transfer) {
-    case Scheme::Transfer::Pic:
-      return std::make_unique<Solver<Basis, Pic>>(scene, scheme, Pic{});
-    case Scheme::Transfer::FlipBlend:
-      return std::make_unique<Solver<Basis, FlipBlend>>(scene, scheme, FlipBlend{scheme.flip_fraction});
-    case Scheme::Transfer::Apic:
-      return std::make_unique<Solver<Basis, Apic>>(scene, scheme, Apic{});
-    case Scheme::Transfer::FullMass:
-      return std::make_unique<Solver<Basis, FullMass>>(scene, scheme, FullMass{});
-    default:
-      return std::make_unique<Solver<Basis, Flip>>(scene, scheme, Flip{});
-  }
-}
-
-/// The general solver, which visits particle by particle.
-std::unique_ptr<Simulation> plain_solver(const Scene& scene, const Scheme& scheme) {
-  switch (scheme.basis) {
-    case Scheme::Basis::Linear:
-      return plain_solver<LinearBasis>(scene, scheme);
-    case Scheme::Basis::Quadratic:
-      return plain_solver<QuadraticBasis>(scene, scheme);
-    default:
-      return plain_solver<CubicBasis>(scene, scheme);
-  }
-}
-
-void run_steps(Simulation& simulation, double dt, int steps) {
-  for (int k = 0; k < steps; ++k) {
-    simulation.advance(k * dt, dt);
-    REQUIRE_FALSE(simulation.breakdown());
-  }
-}
-
-/// Largest difference between two fields, relative to the largest value.
-double difference(const VectorField& a, const VectorField& b) {
-  REQUIRE(a.size() == b.size());
-  double largest = 0, apart = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, a[i].norm());
-    apart = std::max(apart, (a[i] - b[i]).norm());
-  }
-  return apart / largest;
-}
-
-// Round-off of a few dozen steps; a sum taken in another order moves the last digits of numbers of size one,
-// and the stress of a nearly incompressible fluid (sound 10 to 100 times faster than the flow) magnifies
-// that.
-constexpr double round_off = 1e-11;
-
-void require_same(const Simulation& a, const Simulation& b, double t, bool compare_stress) {
-  CHECK(difference(a.particles().velocity, b.particles().velocity) < round_off);
-  CHECK(difference(a.particles().position, b.particles().position) < round_off);
-  double density = 0, stress = 0, largest = 0;
-  for (std::size_t p = 0; p < a.particles().size(); ++p) {
-    density = std::max(density, std::abs(a.particles().density[p] / b.particles().density[p] - 1));
-    stress = std::max(stress, (a.particles().stress[p] - b.particles().stress[p]).norm());
-    largest = std::max(largest, a.particles().stress[p].norm());
-  }
-  CHECK(density < round_off);
-  if (compare_stress)
-    CHECK(stress <= 1e-9 * (largest + 143));  // pressure is 143 Pa times 7 times the change of density
-  const VectorField points{{0.3 * cell, 0.2 * cell}, {1.7 * cell, 2.4 * cell}, {2.5 * cell, 3.1 * cell}};
-  CHECK(difference(a.grid_field(points, t), b.grid_field(points, t)) < round_off);
-  const Totals sum_a = a.totals(), sum_b = b.totals();
-  CHECK((sum_a.impulse - sum_b.impulse).norm() <
-        round_off * (sum_b.impulse.norm() + sum_b.mass * 0.1));  // 0.1 m/s: the flow's
-}
-
-void require_same_as_plain(const Scene& scene, const Scheme& scheme, double dt = 1e-5, int steps = 40) {
-  for (const std::string& isa : available_isas()) {
-    INFO(name(scheme.basis) << " " << name(scheme.transfer) << " " << name(scheme.stepping) << " " << isa);
-    use_isa(isa);
-    const auto vectors = make_simulation(scene, scheme);
-    const auto plain = plain_solver(scene, scheme);
-    run_steps(*vectors, dt, steps);
-    run_steps(*plain, dt, steps);
-    // In USF the general solver keeps the stress that the last step began with, the kernels none.
-    require_same(*vectors, *plain, steps * dt, scheme.stepping != Scheme::Stepping::Usf);
-  }
-  use_isa(available_isas().back());
-}
-
-const std::vector<Scheme::Basis> bases{Scheme::Basis::Linear, Scheme::Basis::Quadratic, Scheme::Basis::Cubic};
-
-}  // namespace
+using namespace kernel_comparison;
 
 TEST_CASE("vector kernels give what the general solver gives: every scheme that they cover") {
   for (const Scheme::Basis basis : bases)
@@ -133,34 +23,6 @@ TEST_CASE("vector kernels give what the general solver gives: every scheme that 
         scene.initial_velocity = [](const Vec2& x) { return Vec2(0.1 * std::sin(1e4 * x.y()), 0); };
         require_same_as_plain(scene, {basis, transfer, stepping});
       }
-}
-
-TEST_CASE("vector kernels: the consistent mass in leapfrog steps, periodic and between walls") {
-  const int nx = GENERATE(9, 3), walls = GENERATE(0, 1, 2);
-  for (const Scheme::Basis basis : bases)
-    for (const bool pressure : {true, false}) {
-      Scene scene = whirl(nx, 8);
-      scene.particles_per_cell = {3, 3};
-      scene.fluid.pressure = pressure;
-      if (walls >= 1) {
-        scene.side(Edge::Bottom) = Side::wall(Vec2(0.02, 0));
-        scene.side(Edge::Top) = Side::wall(Vec2(-0.01, 0));
-      }
-      if (walls == 2) scene.side(Edge::Left) = scene.side(Edge::Right) = Side::wall(Vec2::Zero());
-      if (walls >= 1)
-        scene.initial_velocity = [size = scene.size](const Vec2& x) {
-          const double s = std::sin(std::numbers::pi * x.x() / size.x());
-          return Vec2(0.05 * s * std::sin(1e4 * x.y()), 0);
-        };
-      Scheme scheme{basis, Scheme::Transfer::FullMass, Scheme::Stepping::Leapfrog};
-      INFO("walls " << walls << ", " << nx << " cells" << (pressure ? "" : ", no pressure"));
-      require_same_as_plain(scene, scheme, 4e-6);
-      scheme.reset_every = 7;
-      require_same_as_plain(scene, scheme, 4e-6);
-      scheme.reset_every = 0;
-      scheme.reset_strain = 0.1;
-      require_same_as_plain(scene, scheme, 4e-6);
-    }
 }
 
 TEST_CASE("vector kernels: every rheology, with pressure and without") {
