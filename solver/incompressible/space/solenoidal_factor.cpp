@@ -38,9 +38,12 @@ MatrixXd cosines(int n) {
 
 }  // namespace
 
-SolenoidalFactor::SolenoidalFactor(const VelocitySpace& space, const SparseMatrix& matrix) {
+SolenoidalFactor::SolenoidalFactor(const VelocitySpace& space, const SparseMatrix& matrix,
+                                   const std::optional<Diffusion>& diffusion) {
   if (space.axis(0).periodic() && space.axis(1).periodic()) {
     fourier_ = fourier(space, matrix);
+  } else if (!space.axis(0).periodic() && !space.axis(1).periodic()) {
+    walled_.emplace(space, diffusion);
   } else {
     cholesky_.compute(matrix);
     if (cholesky_.info() != Eigen::Success) throw SceneError("the mass of this grid could not be factorised");
@@ -48,7 +51,8 @@ SolenoidalFactor::SolenoidalFactor(const VelocitySpace& space, const SparseMatri
 }
 
 VectorXd SolenoidalFactor::solve(const VectorXd& load) const {
-  return fourier_ ? solve(*fourier_, load) : VectorXd(cholesky_.solve(load));
+  if (fourier_) return solve(*fourier_, load);
+  return walled_ ? walled_->solve(load) : VectorXd(cholesky_.solve(load));
 }
 
 SolenoidalFactor::Fourier SolenoidalFactor::fourier(const VelocitySpace& space, const SparseMatrix& matrix) {

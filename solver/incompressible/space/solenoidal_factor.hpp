@@ -3,18 +3,20 @@
 #include <Eigen/SparseCholesky>
 #include <optional>
 
-#include "solver/incompressible/space/velocity_space.hpp"
+#include "solver/incompressible/space/walled_factor.hpp"
 
 namespace mpm::incompressible {
 
-/// Solves A w = load over the coordinates w of solenoidal velocities (VelocitySpace::solenoidal_basis), A
-/// symmetric and positive definite, of forms with constant coefficients. Beside walls by Cholesky's factor;
-/// where no side is a wall every place is like the next, A is circulant along both axes, and the real Fourier
-/// modes diagonalise it (Davis, Circulant Matrices, 1979): four dense products a solve, and no factor.
+/// Solves A w = load over the coordinates w of solenoidal velocities (VelocitySpace::solenoidal_basis), A the
+/// mass, or mass and diffusion, of a uniform fluid. Between four walls by WalledFactor. Where no side is a
+/// wall every place is like the next, A is circulant along both axes, and the real Fourier modes diagonalise
+/// it (Davis, Circulant Matrices, 1979): four dense products a solve. In channels by Cholesky's factor.
 class SolenoidalFactor {
  public:
+  /// `matrix` is A; `diffusion` what in it is not mass.
   /// @throws SceneError where A is not positive definite.
-  SolenoidalFactor(const VelocitySpace& space, const SparseMatrix& matrix);
+  SolenoidalFactor(const VelocitySpace& space, const SparseMatrix& matrix,
+                   const std::optional<Diffusion>& diffusion = {});
 
   [[nodiscard]] VectorXd solve(const VectorXd& load) const;
 
@@ -29,6 +31,7 @@ class SolenoidalFactor {
   static VectorXd solve(const Fourier& fourier, const VectorXd& load);
 
   std::optional<Fourier> fourier_;
+  std::optional<WalledFactor> walled_;
   Eigen::SimplicialLLT<SparseMatrix> cholesky_;
 };
 

@@ -74,6 +74,7 @@ ViscousForm::ViscousForm(const VelocitySpace& space, const Scene& scene, const W
           load;
       walls_.push_back({&side, component, both});
     }
+    held_[static_cast<std::size_t>(across)] = held;
     const SparseMatrix along_normal =
         over_unknowns(normal.stiffness(0), space.unknowns(component, component));
     const SparseMatrix mass_normal = over_unknowns(normal.mass(0), space.unknowns(component, component));
