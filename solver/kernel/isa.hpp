@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/incompressible/lanes/plane_kernel.hpp"
+#include "solver/incompressible/lanes/site_kernel.hpp"
 #include "solver/kernel/dense_product.hpp"
 #include "solver/kernel/full_mass/full_mass_kernel.hpp"
 #include "solver/kernel/kernel.hpp"
@@ -31,6 +32,8 @@ void use_threads(int threads);
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
 std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup);
 std::unique_ptr<PlaneKernel> make_plane_kernel(const PlaneSetup& setup);
+std::unique_ptr<SiteKernel> make_site_kernel(const SiteSetup& setup);
+FlowCurve flow_curve();
 DenseProduct dense_product();
 
 }  // namespace mpm
