@@ -64,6 +64,8 @@ class VelocitySpace {
 
  private:
   std::array<SplineAxis, 2> axes_;
+  VectorField points_;                                    // Gauss points of all cells, row by row
+  std::array<std::array<SparseMatrix, 2>, 2> integrals_;  // by axis, less: from values there to integrals
 };
 
 /// Cell of a coordinate and the place in it, in [0, 1].
