@@ -7,7 +7,7 @@ namespace mpm::MPM_ISA {
 
 /// The fit of one component, of nx x ny functions a cell: (P + r M) U = loads + r M U_last, with the
 /// particles' consistent mass P, which the exact mass M of the uniform fluid resembles: conjugate gradients
-/// with that as preconditioner need some ten iterations whatever the mesh.
+/// with that as preconditioner need some dozen iterations whatever the mesh, more where cells have run thin.
 template <int nx, int ny>
 class ComponentFit {
  public:

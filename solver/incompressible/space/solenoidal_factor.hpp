@@ -23,9 +23,12 @@ class SolenoidalFactor {
  private:
   /// The stream function, of which the last coefficient is no coordinate, then two uniform velocities.
   struct Fourier {
-    MatrixXd modes_x, modes_y;  ///< orthonormal, a mode a column
-    MatrixXd inverse;           ///< 1/eigenvalue by mode along x, y; 0 for the constant
-    Vec2 uniform;               ///< A of the uniform velocities
+    Eigen::Index rows, columns;           ///< coefficients along x, y; the matrices are padded
+    MatrixXd modes_x, modes_y;            ///< orthonormal, a mode a column
+    MatrixXd transposed_x, transposed_y;  ///< a mode a row
+    MatrixXd inverse;                     ///< 1/eigenvalue by mode along x, y; 0 for the constant
+    Vec2 uniform;                         ///< A of the uniform velocities
+    ModeProducts multiply;
   };
   static Fourier fourier(const VelocitySpace& space, const SparseMatrix& matrix);
   static VectorXd solve(const Fourier& fourier, const VectorXd& load);

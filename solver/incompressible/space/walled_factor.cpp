@@ -3,19 +3,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "solver/incompressible/space/exact_mass.hpp"
-#include "solver/kernel/isa.hpp"
 
 namespace mpm::incompressible {
-namespace {
-
-MatrixXd zero_padded(const MatrixXd& matrix) {
-  MatrixXd all =
-      MatrixXd::Zero(padded(static_cast<int>(matrix.rows())), padded(static_cast<int>(matrix.cols())));
-  all.topLeftCorner(matrix.rows(), matrix.cols()) = matrix;
-  return all;
-}
-
-}  // namespace
 
 WalledFactor::Modes WalledFactor::modes(const SplineAxis& axis, const std::optional<Diffusion>& diffusion,
                                         int a) {
@@ -31,14 +20,13 @@ WalledFactor::Modes WalledFactor::modes(const SplineAxis& axis, const std::optio
   if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[0] > 0))
     throw SceneError("the mass of this grid could not be factorised");
   const MatrixXd& q = eigen.eigenvectors();
-  return {zero_padded(q), zero_padded(q.transpose()), zero_padded(q.transpose() * stiffness * q),
-          eigen.eigenvalues()};
+  return {ModeProducts::zero_padded(q), ModeProducts::zero_padded(q.transpose()),
+          ModeProducts::zero_padded(q.transpose() * stiffness * q), eigen.eigenvalues()};
 }
 
 WalledFactor::WalledFactor(const VelocitySpace& space, const std::optional<Diffusion>& diffusion)
     : rows_(space.axis(0).normal().count),
       columns_(space.axis(1).normal().count),
-      dense_product_(dense_product()),
       x_(modes(space.axis(0), diffusion, 0)),
       y_(modes(space.axis(1), diffusion, 1)),
       twice_area_(diffusion ? 2 * diffusion->area : 0),
@@ -51,25 +39,13 @@ WalledFactor::WalledFactor(const VelocitySpace& space, const std::optional<Diffu
     }
 }
 
-void WalledFactor::multiply(const MatrixXd& left, const MatrixXd& x, const MatrixXd& right,
-                            MatrixXd& product) const {
-  const auto times = [this](const MatrixXd& a, const MatrixXd& b, MatrixXd& c) {
-    c.resize(a.rows(), b.cols());
-    dense_product_(static_cast<int>(a.rows()), static_cast<int>(a.cols()), static_cast<int>(b.cols()),
-                   a.data(), b.data(), c.data());
-  };
-  MatrixXd in_x;
-  times(left, x, in_x);
-  times(in_x, right, product);
-}
-
 VectorXd WalledFactor::solve(const VectorXd& load) const {
   // Relative, in the norm of the preconditioner: what Cholesky's factor would leave.
   constexpr double tolerance = 1e-14;
   constexpr int most_iterations = 60;
   MatrixXd r = MatrixXd::Zero(sums_.rows(), sums_.cols()), x, product;
   r.topLeftCorner(rows_, columns_) = load.reshaped(rows_, columns_);
-  multiply(x_.transposed, MatrixXd(r), y_.modes, r);
+  multiply_(x_.transposed, r, y_.modes, r);
   MatrixXd z = inverse_diagonal_.cwiseProduct(r);
   if (twice_area_ == 0) {
     x = z;
@@ -79,7 +55,7 @@ VectorXd WalledFactor::solve(const VectorXd& load) const {
     double rz = r.cwiseProduct(z).sum();
     const double enough = tolerance * tolerance * rz;
     for (int k = 0; k < most_iterations && rz > enough; ++k) {
-      multiply(x_.stiffness, p, y_.stiffness, product);
+      multiply_(x_.stiffness, p, y_.stiffness, product);
       product = twice_area_ * product + sums_.cwiseProduct(p);
       const double alpha = rz / p.cwiseProduct(product).sum();
       x += alpha * p;
@@ -90,7 +66,7 @@ VectorXd WalledFactor::solve(const VectorXd& load) const {
       rz = next;
     }
   }
-  multiply(x_.modes, x, y_.transposed, product);
+  multiply_(x_.modes, x, y_.transposed, product);
   return product.topLeftCorner(rows_, columns_).reshaped();
 }
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "solver/incompressible/space/mode_products.hpp"
 #include "solver/incompressible/space/velocity_space.hpp"
-#include "solver/kernel/dense_product.hpp"
 
 namespace mpm::incompressible {
 
@@ -29,7 +29,7 @@ class WalledFactor {
   [[nodiscard]] VectorXd solve(const VectorXd& load) const;
 
  private:
-  /// Of a line, padded with zeros (solver/kernel/dense_product.hpp).
+  /// Of a line, padded with zeros.
   struct Modes {
     MatrixXd modes, transposed;  ///< a mode a column, of mass 1; the same by rows
     MatrixXd stiffness;          ///< of modes with each other
@@ -37,11 +37,8 @@ class WalledFactor {
   };
   static Modes modes(const SplineAxis& axis, const std::optional<Diffusion>& diffusion, int a);
 
-  /// left x right.
-  void multiply(const MatrixXd& left, const MatrixXd& x, const MatrixXd& right, MatrixXd& product) const;
-
   Eigen::Index rows_, columns_;
-  DenseProduct dense_product_;
+  ModeProducts multiply_;
   Modes x_, y_;
   double twice_area_;
   MatrixXd sums_;              // lambda_x + lambda_y
