@@ -42,7 +42,7 @@ Stokes::Stokes(const Scene& scene, const VelocitySpace& space, const ExactMass& 
       space_(space),
       mass_(mass),
       basis_(space.solenoidal_basis()),
-      reduced_mass_((basis_.transpose() * mass.matrix() * basis_).pruned()),
+      reduced_mass_(reduced_to(basis_, mass.matrix())),
       mass_factor_(space, reduced_mass_),
       viscosity_(make_viscosity(scene, space, basis_, reduced_mass_, shares)),
       last_(VectorXd::Zero(basis_.cols())),

@@ -33,14 +33,40 @@ SparseMatrix derivative_between_unknowns(const SplineAxis& axis) {
 }  // namespace
 
 SparseMatrix kronecker(const SparseMatrix& along_y, const SparseMatrix& along_x) {
-  Triplets entries;
-  entries.reserve(static_cast<std::size_t>(along_x.nonZeros() * along_y.nonZeros()));
-  for (int k = 0; k < along_y.outerSize(); ++k)
-    for (SparseMatrix::InnerIterator y(along_y, k); y; ++y)
-      append(entries, along_x, y.row() * along_x.rows(), y.col() * along_x.cols(), y.value());
   SparseMatrix product(along_x.rows() * along_y.rows(), along_x.cols() * along_y.cols());
-  product.setFromTriplets(entries.begin(), entries.end());
+  product.reserve(along_x.nonZeros() * along_y.nonZeros());
+  for (int j = 0; j < along_y.outerSize(); ++j)
+    for (int i = 0; i < along_x.outerSize(); ++i) {
+      const Eigen::Index column = i + j * along_x.cols();
+      product.startVec(column);
+      for (SparseMatrix::InnerIterator y(along_y, j); y; ++y)
+        for (SparseMatrix::InnerIterator x(along_x, i); x; ++x)
+          product.insertBack(x.row() + y.row() * along_x.rows(), column) = x.value() * y.value();
+    }
+  product.finalize();
   return product;
+}
+
+SparseMatrix block_diagonal(const SparseMatrix& first, const SparseMatrix& second) {
+  SparseMatrix both(first.rows() + second.rows(), first.cols() + second.cols());
+  both.reserve(first.nonZeros() + second.nonZeros());
+  for (const SparseMatrix* block : {&first, &second}) {
+    const Eigen::Index row = block == &first ? 0 : first.rows(), column = block == &first ? 0 : first.cols();
+    for (int k = 0; k < block->outerSize(); ++k) {
+      both.startVec(column + k);
+      for (SparseMatrix::InnerIterator it(*block, k); it; ++it)
+        both.insertBack(row + it.row(), column + k) = it.value();
+    }
+  }
+  both.finalize();
+  return both;
+}
+
+SparseMatrix reduced_to(const SparseMatrix& basis, const SparseMatrix& form) {
+  const SparseMatrix turned = basis.transpose(), of_basis = form * basis;
+  SparseMatrix reduced = turned * of_basis;
+  reduced.prune(0.0);
+  return reduced;
 }
 
 PlaceInCell::PlaceInCell(const SplineAxis& axis, double x) {

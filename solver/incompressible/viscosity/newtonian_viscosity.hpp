@@ -19,7 +19,7 @@ class NewtonianViscosity final : public Viscosity {
         basis_(basis),
         mass_(mass),
         form_(space, scene, shares),
-        matrix_((basis.transpose() * form_.matrix() * basis).pruned()) {}
+        matrix_(reduced_to(basis, form_.matrix())) {}
 
   [[nodiscard]] VectorXd force(const VectorXd& w, double t) const override {
     return nu_ * (matrix_ * w - basis_.transpose() * form_.wall_load(t));
