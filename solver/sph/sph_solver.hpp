@@ -149,7 +149,7 @@ class SphSolver final : public Simulation {
 
   /// Density, viscosity, and the acceleration at time t [s] after a step of dt.
   void evaluate(double t, double dt) {
-    const bool follows_density = Pressure::varies && !sums_density();
+    const bool keeps_slopes = Pressure::varies && !sums_density() && dt > 0;
     gravity_ = scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero());
     if constexpr (Pressure::varies) {
       if (sums_density()) {
@@ -165,13 +165,14 @@ class SphSolver final : public Simulation {
     if constexpr (generalised) {
       refresh(t);
       stress_.resize(near_.entries().size());
-      team_.run(static_cast<int>((size() + block - 1) / block), [&](int share) { find_viscosities(share); });
+      team_.run(static_cast<int>((size() + block - 1) / block),
+                [&](int share) { find_viscosities(share, keeps_slopes); });
       near_.surroundings().fill(stress_);
     } else {
       for (std::size_t p = 0; p < size(); ++p) near_.entries()[p].viscosity = rheology_.viscosity();
     }
     refresh(t);
-    if (follows_density && dt > 0)
+    if (keeps_slopes)
       for_particles([&](std::size_t p) { find_acceleration(p, near_.kept_slope(p)); });
     else
       for_particles([&](std::size_t p) { find_acceleration(p, near_.fresh_slope()); });
@@ -201,7 +202,8 @@ class SphSolver final : public Simulation {
   }
 
   /// L = grad v of a particle, by differences.
-  [[nodiscard]] Mat2 velocity_gradient(std::size_t p) const {
+  template <class Slope>
+  [[nodiscard]] Mat2 velocity_gradient(std::size_t p, const Slope& slope) const {
     const std::vector<Neighbour>& entries = near_.entries();
     double xx = 0, xy = 0, yx = 0, yy = 0;
     const auto add = [&](const Vec2& dv, const Vec2& d, double volume_f) {
@@ -211,7 +213,7 @@ class SphSolver final : public Simulation {
       yy -= volume_f * dv.y() * d.y();
     };
     near_.for_pairs(
-        p, near_.fresh_slope(),
+        p, slope,
         [&](std::uint32_t e, const Vec2& d, double f) {
           const Neighbour& n = entries[e];
           add(entries[p].velocity - n.velocity, d, n.mass * n.inverse_density * f);
@@ -226,13 +228,15 @@ class SphSolver final : public Simulation {
   }
 
   /// Viscosities of a block of particles from gdot^2 = 2 D:D, in one call on an array, and mu L.
-  void find_viscosities(int share) {
+  void find_viscosities(int share, bool keeps_slopes) {
     using Array = Eigen::Array<double, static_cast<int>(block), 1>;
     const std::size_t begin = static_cast<std::size_t>(share) * block;
     const std::size_t count = std::min(block, size() - begin);
     Array gdot_squared = Array::Ones();  // beyond `count` a harmless value
     for (std::size_t k = 0; k < count; ++k) {
-      const Mat2 l = stress_[begin + k] = velocity_gradient(begin + k);
+      const std::size_t p = begin + k;
+      const Mat2 l = stress_[p] = keeps_slopes ? velocity_gradient(p, near_.kept_slope(p))
+                                               : velocity_gradient(p, near_.fresh_slope());
       gdot_squared[static_cast<Eigen::Index>(k)] = (l + l.transpose()).squaredNorm() / 2;
     }
     if constexpr (generalised) {
