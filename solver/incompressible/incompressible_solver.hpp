@@ -33,7 +33,8 @@ class IncompressibleSolver final : public Simulation, public PressureField {
         space_(scene, scheme.degree),
         mass_(space_),
         stokes_(scene_, space_, mass_, shares),
-        kernel_(make_plane_kernel(plane_setup(space_, scheme.regularisation))),
+        setup_(plane_setup(space_, scheme.regularisation)),
+        kernel_(make_plane_kernel(setup_)),
         particles_(seed_particles(scene)),
         lattice_(particles_.position),
         volume_(particles_.size()),
@@ -204,6 +205,7 @@ class IncompressibleSolver final : public Simulation, public PressureField {
   VelocitySpace space_;
   ExactMass mass_;
   Stokes stokes_;
+  const PlaneSetup setup_;
   const std::unique_ptr<PlaneKernel> kernel_;
   Particles particles_;
   const VectorField lattice_;

@@ -13,8 +13,8 @@ namespace mpm::MPM_ISA {
 template <int k>
 class LanePlane final : public PlaneKernel {
  public:
-  explicit LanePlane(PlaneSetup setup)
-      : setup_(std::move(setup)),
+  explicit LanePlane(const PlaneSetup& setup)
+      : setup_(setup),
         u_(setup_, 0),
         v_(setup_, 1),
         field_u_(u_.rows()),
@@ -213,7 +213,7 @@ class LanePlane final : public PlaneKernel {
     v_.add(block * width, row, of_v, load_v);
   }
 
-  PlaneSetup setup_;
+  const PlaneSetup& setup_;
   double cells_a_metre_[2];
   ComponentFit<k + 1, k> u_;
   ComponentFit<k, k + 1> v_;

@@ -14,13 +14,17 @@ template <int k>
 class LaneSites final : public SiteKernel {
  public:
   explicit LaneSites(const SiteSetup& setup)
-      : cells_(setup.cells), blocks_((setup.cells[0] + width - 1) / width), functions_y_(setup.functions[1]) {
+      : cells_(setup.cells),
+        blocks_((setup.cells[0] + width - 1) / width),
+        per_derivative_(setup.functions[1][0].size()) {
     for (int block = 0; block < blocks_; ++block)
       for (int g = 0; g < n; ++g)
         for (std::size_t d = 0; d < 3; ++d)
           for (int a = 0; a < n; ++a)
             functions_x_.push_back(
                 of_cells(block, [&](int cell) { return setup.functions[0][d][index(cell, g, a)]; }));
+    for (const std::vector<double>& of : setup.functions[1])
+      functions_y_.insert(functions_y_.end(), of.begin(), of.end());
     for (int row = 0; row < cells_[1]; ++row)
       for (int block = 0; block < blocks_; ++block)
         for (int gy = 0; gy < n; ++gy)
@@ -157,7 +161,7 @@ class LaneSites final : public SiteKernel {
     return functions_x_.data() + (block * n + g) * 3 * n;
   }
   [[nodiscard]] Lanes function_y(int row, int g, int d, int b) const {
-    return functions_y_[static_cast<std::size_t>(d)][index(row, g, b)];
+    return functions_y_[static_cast<std::size_t>(d) * per_derivative_ + index(row, g, b)];
   }
 
   [[nodiscard]] int rows() const { return cells_[1] + k; }
@@ -171,7 +175,8 @@ class LaneSites final : public SiteKernel {
   std::array<int, 2> cells_;
   int blocks_;
   LargeArray<Lanes> functions_x_;  // [block][point][derivative][function]
-  std::array<std::vector<double>, 3> functions_y_;
+  std::size_t per_derivative_;
+  LargeArray<double> functions_y_;  // [derivative][row][point][function]
   LargeArray<Lanes> weights_;
 };
 

@@ -36,6 +36,7 @@ struct LineOfFunctions {
   std::array<LineFactor, 2> factor;            ///< of the mass over the unknowns
 };
 
+/// Outlives the kernels that are made from it.
 struct PlaneSetup {
   int degree;
   std::array<LineOfFunctions, 2> axis;

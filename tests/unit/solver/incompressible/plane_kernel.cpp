@@ -94,6 +94,7 @@ TEST_CASE("the vector kernels fit and follow fields as their definitions say, on
   const VelocityField field = space.extended(z);
   const Crowd crowd(scene);
   const double r = 1e-3;
+  const PlaneSetup setup = plane_setup(space, r);
   const VectorXd expected = fitted_densely(space, crowd, z, r);
   const auto inside = [&](Vec2 x) {
     for (const int a : {0, 1})
@@ -104,7 +105,7 @@ TEST_CASE("the vector kernels fit and follow fields as their definitions say, on
   for (const std::string& isa : available_isas()) {
     INFO(isa << " k = " << k << ", " << cells_x << " x " << cells_y << ", walls " << walls_x << walls_y);
     use_isa(isa);
-    const std::unique_ptr<PlaneKernel> kernel = make_plane_kernel(plane_setup(space, r));
+    const std::unique_ptr<PlaneKernel> kernel = make_plane_kernel(setup);
     ThreadTeam one(1), three(3);
     const VectorXd found = fitted(*kernel, space, crowd, z, one);
     CHECK((found - expected).lpNorm<Eigen::Infinity>() < 1e-8 * expected.lpNorm<Eigen::Infinity>());
@@ -137,7 +138,8 @@ TEST_CASE("the fit gives back what the grid can carry, and counts who is where",
   crowd.place = seed_particles(scene).position;
   for (std::size_t p = 0; p < crowd.place.size(); ++p) crowd.velocity[p] = space.value(field, crowd.place[p]);
   ThreadTeam team(1);
-  const std::unique_ptr<PlaneKernel> kernel = make_plane_kernel(plane_setup(space, 1e-5));
+  const PlaneSetup setup = plane_setup(space, 1e-5);
+  const std::unique_ptr<PlaneKernel> kernel = make_plane_kernel(setup);
   CHECK((fitted(*kernel, space, crowd, z, team) - z).lpNorm<Eigen::Infinity>() < 1e-9);
   // Held to nothing by a hundred-thousandth.
   CHECK(fitted(*kernel, space, crowd, VectorXd::Zero(z.size()), team).isApprox(z, 1e-3));
