@@ -27,22 +27,30 @@ constexpr double newton_tolerance = 1e-11;  // largest change of a coefficient; 
 
 /// The functions of an axis at the Gauss points of one of its spans.
 struct Span {
-  VectorXd weight;
-  std::vector<SplineAxis::Local> at;
+  int first;        // function
+  VectorXd weight;  // of the points
+  MatrixXd of;      // function; point, derivative (0, 1, 2)
+  MatrixXd pairs;   // function, other function; point, derivative, other derivative: their products
 };
 
 std::vector<Span> gauss_points(const SplineAxis& axis) {
-  const auto count = static_cast<std::size_t>(axis.degree()) + 1;
+  const Index count = axis.degree() + 1;
   const std::unique_ptr<gsl_integration_glfixed_table, decltype(&gsl_integration_glfixed_table_free)> table(
-      gsl_integration_glfixed_table_alloc(count), &gsl_integration_glfixed_table_free);
+      gsl_integration_glfixed_table_alloc(static_cast<std::size_t>(count)),
+      &gsl_integration_glfixed_table_free);
   std::vector<Span> spans;
   for (int s = 0; s < axis.spans(); ++s) {
-    Span span{VectorXd(static_cast<Index>(count)), {}};
-    for (std::size_t i = 0; i < count; ++i) {
+    Span span{0, VectorXd(count), MatrixXd(count, 3 * count), MatrixXd(count * count, 9 * count)};
+    for (Index g = 0; g < count; ++g) {
       double x = 0;
-      gsl_integration_glfixed_point(axis.start(s), axis.start(s) + axis.width(s), i, &x,
-                                    &span.weight[static_cast<Index>(i)], table.get());
-      span.at.push_back(axis.at(x, s));
+      gsl_integration_glfixed_point(axis.start(s), axis.start(s) + axis.width(s), static_cast<std::size_t>(g),
+                                    &x, &span.weight[g], table.get());
+      const SplineAxis::Local local = axis.at(x, s);
+      span.first = local.first;
+      span.of.middleCols<3>(3 * g) = local.of.transpose();
+      for (Index d = 0; d < 3; ++d)
+        for (Index e = 0; e < 3; ++e)
+          span.pairs.col(9 * g + 3 * d + e) = (local.of.row(d).transpose() * local.of.row(e)).reshaped();
     }
     spans.push_back(std::move(span));
   }
@@ -105,55 +113,67 @@ class Equations {
     }
   }
 
-  /// One cell. Rows of the local matrices: points; columns: its functions, x fastest.
+  /// A derivative of a function along x and y.
+  struct Derivative {
+    Index x, y;
+  };
+  static constexpr Derivative by_x{1, 0}, by_y{0, 1}, by_xx{2, 0}, by_xy{1, 1}, by_yy{0, 2};
+
+  /// One cell. What its points ask of pairs of derivatives is summed along x with the products of functions
+  /// there, then along y.
   void add(const Span& x, const Span& y, const MatrixXd& coefficients) {
-    const Index p1 = axis_.degree() + 1, points = p1 * p1;
-    const int first_x = x.at.front().first, first_y = y.at.front().first;
-    const VectorXd local = coefficients.block(first_x, first_y, p1, p1).reshaped();
-    tests_.resize(points * 5, points);
-    trials_.resize(points * 5, points);
-    VectorXd load = VectorXd::Zero(points);
+    const Index p1 = axis_.degree() + 1;
+    const MatrixXd psi = x.of.transpose() * coefficients.block(x.first, y.first, p1, p1) * y.of;
+    of_pairs_.setZero(9 * p1, 9 * p1);
+    MatrixXd of_tests = MatrixXd::Zero(3 * p1, 3 * p1);
     for (Index b = 0; b < p1; ++b)
       for (Index a = 0; a < p1; ++a) {
-        const auto& at_x = x.at[static_cast<std::size_t>(a)].of;
-        const auto& at_y = y.at[static_cast<std::size_t>(b)].of;
-        const auto product = [&](int along, int across) -> Eigen::RowVectorXd {
-          return (at_x.row(along).transpose() * at_y.row(across)).reshaped().transpose();
+        const auto of_psi = [&](Derivative d) { return psi(3 * a + d.x, 3 * b + d.y); };
+        const auto of_test = [&](Derivative d) -> double& { return of_tests(3 * a + d.x, 3 * b + d.y); };
+        const auto of_pair = [&](Derivative test, Derivative trial) -> double& {
+          return of_pairs_(9 * a + 3 * test.x + trial.x, 9 * b + 3 * test.y + trial.y);
         };
         const double weight = x.weight[a] * y.weight[b];
-        const Eigen::RowVectorXd by_x = product(1, 0), by_y = product(0, 1), by_xy = product(1, 1),
-                                 by_xx = product(2, 0), by_yy = product(0, 2);
-        const Eigen::RowVectorXd shear = by_yy - by_xx, laplacian = by_xx + by_yy;
-        const double psi_x = by_x.dot(local), psi_y = by_y.dot(local), psi_xy = by_xy.dot(local),
-                     s = shear.dot(local), lap = laplacian.dot(local);
-        const auto [nu, by_q] = viscosity_.at(4 * psi_xy * psi_xy + s * s);
-        const Eigen::RowVectorXd stretched = 4 * psi_xy * by_xy + s * shear;  // half of the change of q
-        const Eigen::RowVectorXd carried = psi_y * by_x - psi_x * by_y;
-        load += weight * (nu * stretched + lap * carried).transpose();
-        const Index row = 5 * (a + p1 * b);
-        const double root = std::sqrt(weight);
-        tests_.row(row) = 4 * root * nu * by_xy, trials_.row(row) = root * by_xy;
-        tests_.row(row + 1) = root * nu * shear, trials_.row(row + 1) = root * shear;
-        tests_.row(row + 2) = 2 * root * by_q * stretched, trials_.row(row + 2) = root * stretched;
-        tests_.row(row + 3) = root * carried, trials_.row(row + 3) = root * laplacian;
-        tests_.row(row + 4) = root * lap * by_x, trials_.row(row + 4) = root * by_y;
-        // The last term, - lap psi (phi_y)(dpsi_x), shares no factor with the others.
-        extra_tests_.resize(points, points), extra_trials_.resize(points, points);
-        extra_tests_.row(row / 5) = -root * lap * by_y, extra_trials_.row(row / 5) = root * by_x;
+        const double psi_x = of_psi(by_x), psi_y = of_psi(by_y), psi_xy = of_psi(by_xy),
+                     shear = of_psi(by_yy) - of_psi(by_xx), lap = of_psi(by_xx) + of_psi(by_yy);
+        const auto [nu, by_q] = viscosity_.at(4 * psi_xy * psi_xy + shear * shear);
+        // The stress 4 nu psi_xy, nu shear, and the momentum lap (psi_y phi_x - psi_x phi_y).
+        of_test(by_xy) = weight * nu * 4 * psi_xy;
+        of_test(by_yy) = weight * nu * shear;
+        of_test(by_xx) = -weight * nu * shear;
+        of_test(by_x) = weight * lap * psi_y;
+        of_test(by_y) = -weight * lap * psi_x;
+        // Their derivatives by psi.
+        const double steeper = 2 * weight * by_q;
+        const double both = steeper * 4 * psi_xy * shear, across = weight * nu + steeper * shear * shear;
+        of_pair(by_xy, by_xy) = 4 * weight * nu + steeper * 16 * psi_xy * psi_xy;
+        of_pair(by_xy, by_yy) = of_pair(by_yy, by_xy) = both;
+        of_pair(by_xy, by_xx) = of_pair(by_xx, by_xy) = -both;
+        of_pair(by_yy, by_yy) += across;
+        of_pair(by_xx, by_xx) += across;
+        of_pair(by_yy, by_xx) -= across;
+        of_pair(by_xx, by_yy) -= across;
+        for (const Derivative trial : {by_xx, by_yy}) {
+          of_pair(by_x, trial) += weight * psi_y;
+          of_pair(by_y, trial) -= weight * psi_x;
+        }
+        of_pair(by_x, by_y) += weight * lap;
+        of_pair(by_y, by_x) -= weight * lap;
       }
-    block_.noalias() = tests_.transpose() * trials_;
-    block_.noalias() += extra_tests_.transpose() * extra_trials_;
+    const MatrixXd load = x.of * of_tests * y.of.transpose();
+    along_x_.noalias() = x.pairs * of_pairs_;
+    block_.noalias() = along_x_ * y.pairs.transpose();  // test and trial along x; along y
     const auto inside = [&](Index i) { return i >= 0 && i < inner_; };
     for (Index j = 0; j < p1; ++j)
       for (Index i = 0; i < p1; ++i) {
-        const Index column_x = first_x + i - 2, column_y = first_y + j - 2;
+        const Index column_x = x.first + i - 2, column_y = y.first + j - 2;
         if (!inside(column_x) || !inside(column_y)) continue;
-        residual_[column_x + inner_ * column_y] += load[i + p1 * j];
+        residual_[column_x + inner_ * column_y] += load(i, j);
         for (Index b = 0; b < p1; ++b)
           for (Index a = 0; a < p1; ++a) {
-            const Index row_x = first_x + a - 2, row_y = first_y + b - 2;
+            const Index row_x = x.first + a - 2, row_y = y.first + b - 2;
             if (inside(row_x) && inside(row_y))
-              entry(row_x, row_y, column_x, column_y) += block_(a + p1 * b, i + p1 * j);
+              entry(row_x, row_y, column_x, column_y) += block_(a + p1 * i, b + p1 * j);
           }
       }
   }
@@ -164,7 +184,7 @@ class Equations {
   Index inner_;
   Eigen::SparseMatrix<double> matrix_;
   VectorXd residual_;
-  MatrixXd tests_, trials_, extra_tests_, extra_trials_, block_;
+  MatrixXd of_pairs_, along_x_, block_;
   Eigen::SparseLU<Eigen::SparseMatrix<double>, NestedDissection> solver_;
   bool analysed_ = false;
 };

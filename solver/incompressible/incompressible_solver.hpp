@@ -4,10 +4,11 @@
 #include <limits>
 #include <utility>
 
-#include "solver/incompressible/particle_fit.hpp"
+#include "solver/incompressible/lanes/plane_setup.hpp"
 #include "solver/incompressible/pressure.hpp"
 #include "solver/incompressible/pressure_field.hpp"
 #include "solver/incompressible/stokes.hpp"
+#include "solver/kernel/isa.hpp"
 #include "solver/scene/seeding.hpp"
 #include "solver/simulation.hpp"
 
@@ -22,7 +23,6 @@ namespace mpm::incompressible {
 /// Every W is solenoidal at every point, so particles stay spread; there is no sound. Reflecting the gradient
 /// part, as the constraint on the midpoint asks, alternates from step to step what the mesh cannot resolve;
 /// the mean of two successive ones does not.
-template <int K>
 class IncompressibleSolver final : public Simulation, public PressureField {
  public:
   IncompressibleSolver(const Scene& scene, const IncompressibleScheme& scheme, int threads,
@@ -30,10 +30,11 @@ class IncompressibleSolver final : public Simulation, public PressureField {
       : scene_(scene),
         scheme_(scheme),
         team_(threads),
-        space_(scene, K),
+        space_(scene, scheme.degree),
         mass_(space_),
         stokes_(scene_, space_, mass_, shares),
-        fit_(space_, mass_, scheme.regularisation),
+        setup_(plane_setup(space_, scheme.regularisation)),
+        kernel_(make_plane_kernel(setup_)),
         particles_(seed_particles(scene)),
         lattice_(particles_.position),
         volume_(particles_.size()),
@@ -52,8 +53,8 @@ class IncompressibleSolver final : public Simulation, public PressureField {
   }
 
   void advance(double t, double dt) override {
-    drift(particles_.position, space_.extended(drift_.at(t + 0.25 * dt)), 0.5 * dt, middle_);
-    const VectorXd fitted = fit_.fitted(volume_, middle_, particles_.velocity, field_, team_);
+    drift(particles_.position, drift_.at(t + 0.25 * dt), 0.5 * dt, middle_);
+    const VectorXd fitted = fit();
     const bool remaps = scheme_.remap_every > 0 && ++steps_ % scheme_.remap_every == 0;
     if (remaps) middle_ = lattice_;  // and the velocity there is the grid's, which loses nothing
 
@@ -67,13 +68,12 @@ class IncompressibleSolver final : public Simulation, public PressureField {
         gradient / dt;  // as much as the step is long, and the last one before an output is shorter
     impulse_ += scene_.fluid.density * step.impulse;
 
-    take(space_.extended(field_));
+    take(field_);
     const VectorXd middle_field = 0.5 * (start + step.end);
-    const VelocityField along = space_.extended(middle_field);
     if (remaps)
-      drift(middle_, along, 0.5 * dt, particles_.position);
+      drift(middle_, middle_field, 0.5 * dt, particles_.position);
     else
-      drift(particles_.position, along, dt, particles_.position);
+      drift(particles_.position, middle_field, dt, particles_.position);
     drift_.add(middle_field, t + 0.5 * dt);
     now_ = t + dt;
     judge(dt, step.converged);
@@ -116,7 +116,7 @@ class IncompressibleSolver final : public Simulation, public PressureField {
   [[nodiscard]] Totals totals() const override { return totals_of(particles_, impulse_); }
 
   /// Fewest and most particles of a cell where the last fit was taken.
-  [[nodiscard]] std::pair<int, int> occupancy() const { return fit_.occupancy(); }
+  [[nodiscard]] std::pair<int, int> occupancy() const { return kernel_->occupancy(); }
 
  private:
   static constexpr std::size_t block = 512;
@@ -149,38 +149,43 @@ class IncompressibleSolver final : public Simulation, public PressureField {
     bool is_first = true;
   };
 
+  /// loop(first, count) for blocks of particles.
   template <class Loop>
-  void for_particles(const Loop& loop) {
+  void for_blocks(const Loop& loop) {
     team_.run(static_cast<int>((particles_.size() + block - 1) / block), [&](int share) {
       const std::size_t begin = static_cast<std::size_t>(share) * block;
-      const std::size_t end = std::min(begin + block, particles_.size());
-      for (std::size_t p = begin; p < end; ++p) loop(p);
+      loop(begin, std::min(block, particles_.size() - begin));
+    });
+  }
+  static const double* numbers(const VectorField& field, std::size_t from = 0) { return field[from].data(); }
+  static double* numbers(VectorField& field, std::size_t from = 0) { return field[from].data(); }
+
+  /// The velocity field nearest to the particles': argmin over U of
+  ///   sum_p V_p |U(x_p) - v_p|^2 + r |U - U_last|^2,
+  /// the last term, with the exact mass, for cells that run thin or empty.
+  VectorXd fit() {
+    constexpr double tolerance = 1e-11;
+    kernel_->assemble(volume_.data(), numbers(middle_), numbers(particles_.velocity), particles_.size(),
+                      team_);
+    VectorXd fitted(space_.size());
+    team_.run(2, [&](int component) {
+      const Eigen::Index first = component == 0 ? 0 : space_.size(0);
+      kernel_->solve(component, tolerance, field_.data() + first, fitted.data() + first);
+    });
+    return fitted;
+  }
+
+  void drift(const VectorField& from, const VectorXd& field, double dt, VectorField& to) {
+    kernel_->follow(field.data());
+    for_blocks([&](std::size_t p, std::size_t count) {
+      kernel_->drift(numbers(from, p), count, dt, numbers(to, p));
     });
   }
 
-  /// Midpoint rule along a field that stands still.
-  void drift(const VectorField& from, const VelocityField& field, double dt, VectorField& to) {
-    for_particles([&](std::size_t p) {
-      const Vec2 half = inside(from[p] + 0.5 * dt * ParticleWeights<K>(space_, from[p]).velocity(field));
-      to[p] = inside(from[p] + dt * ParticleWeights<K>(space_, half).velocity(field));
-    });
-  }
-
-  /// Around periodic directions, and not beyond walls, to which the field is tangential.
-  [[nodiscard]] Vec2 inside(Vec2 x) const {
-    for (const int a : {0, 1}) {
-      const double length = scene_.size[a];
-      if (space_.axis(a).periodic())
-        x[a] -= length * std::floor(x[a] / length);
-      else
-        x[a] = std::clamp(x[a], 0.0, length);
-    }
-    return x;
-  }
-
-  void take(const VelocityField& field) {
-    for_particles([&](std::size_t p) {
-      particles_.velocity[p] = ParticleWeights<K>(space_, middle_[p]).velocity(field);
+  void take(const VectorXd& field) {
+    kernel_->follow(field.data());
+    for_blocks([&](std::size_t p, std::size_t count) {
+      kernel_->velocities(numbers(middle_, p), count, numbers(particles_.velocity, p));
     });
   }
 
@@ -200,7 +205,8 @@ class IncompressibleSolver final : public Simulation, public PressureField {
   VelocitySpace space_;
   ExactMass mass_;
   Stokes stokes_;
-  ParticleFit<K> fit_;
+  const PlaneSetup setup_;
+  const std::unique_ptr<PlaneKernel> kernel_;
   Particles particles_;
   const VectorField lattice_;
   std::vector<double> volume_;  // [m2]

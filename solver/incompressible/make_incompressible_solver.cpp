@@ -4,16 +4,6 @@
 #include "solver/kernel/isa.hpp"
 
 namespace mpm {
-namespace {
-
-template <int K>
-std::unique_ptr<Simulation> make(const Scene& scene, const IncompressibleScheme& scheme, int threads,
-                                 const WallShares& shares) {
-  return std::make_unique<incompressible::IncompressibleSolver<K>>(scene, scheme, threads, shares);
-}
-
-}  // namespace
-
 void require_incompressible_fits(const IncompressibleScheme& scheme, const Scene& scene) {
   scheme.validate();
   if (scene.free_surface) throw SceneError("an incompressible fluid fills its box: no fluid_region");
@@ -30,14 +20,7 @@ std::unique_ptr<Simulation> make_incompressible_solver(const Scene& scene, const
   scene.validate();
   require_incompressible_fits(scheme, scene);
   if (threads == 0) threads = default_threads();
-  switch (scheme.degree) {
-    case 2:
-      return make<2>(scene, scheme, threads, shares);
-    case 3:
-      return make<3>(scene, scheme, threads, shares);
-    default:
-      return make<4>(scene, scheme, threads, shares);
-  }
+  return std::make_unique<incompressible::IncompressibleSolver>(scene, scheme, threads, shares);
 }
 
 }  // namespace mpm

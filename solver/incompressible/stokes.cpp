@@ -42,7 +42,7 @@ Stokes::Stokes(const Scene& scene, const VelocitySpace& space, const ExactMass& 
       space_(space),
       mass_(mass),
       basis_(space.solenoidal_basis()),
-      reduced_mass_((basis_.transpose() * mass.matrix() * basis_).pruned()),
+      reduced_mass_(reduced_to(basis_, mass.matrix())),
       mass_factor_(space, reduced_mass_),
       viscosity_(make_viscosity(scene, space, basis_, reduced_mass_, shares)),
       last_(VectorXd::Zero(basis_.cols())),
@@ -70,7 +70,13 @@ VectorXd Stokes::forces(double t) const {
   return sum;
 }
 
-Vec2 Stokes::impulse(const VectorXd& body, const VectorXd& resistance, const VectorXd& gained) const {
+Vec2 Stokes::impulse(const VectorXd& body, const std::vector<Stage>& stages, double dt,
+                     const VectorXd& gained) const {
+  VectorXd resistance;
+  if (space_.axis(0).periodic() || space_.axis(1).periodic()) {
+    resistance.setZero(basis_.cols());
+    for (const Stage& stage : stages) resistance += stage.weight * dt * viscosity_->force(stage.w, stage.t);
+  }
   Vec2 sum;
   for (const int a : {0, 1}) {
     const auto axis = static_cast<std::size_t>(a);
@@ -96,10 +102,8 @@ Stokes::Step Stokes::advanced(const VectorXd& start, double t, double dt,
     const VectorXd f = forces(half);
     const auto middle = solved(0.5 * dt, half, momentum + 0.5 * dt * f);
     const VectorXd end = 2 * (basis_ * middle.w) - start;
-    return {end,
-            impulse(dt * f, dt * viscosity_->force(middle.w, half), end - start),
-            middle.converged,
-            {{middle.w, half, 1}}};
+    const std::vector<Stage> stages = {{middle.w, half, 1}};
+    return {end, impulse(dt * f, stages, dt, end - start), middle.converged, stages};
   }
   const VectorXd f1 = forces(t + gamma * dt), f2 = forces(t + dt);
   const auto first = solved(gamma * dt, t + gamma * dt, momentum + gamma * dt * f1);
@@ -107,12 +111,9 @@ Stokes::Step Stokes::advanced(const VectorXd& start, double t, double dt,
   const auto last =
       solved(gamma * dt, t + dt, momentum + mass_.times((1 - gamma) * dt * rate) + gamma * dt * f2);
   const VectorXd end = basis_ * last.w;
-  const VectorXd resistance = (1 - gamma) * dt * viscosity_->force(first.w, t + gamma * dt) +
-                              gamma * dt * viscosity_->force(last.w, t + dt);
-  return {end,
-          impulse((1 - gamma) * dt * f1 + gamma * dt * f2, resistance, end - start),
-          first.converged && last.converged,
-          {{first.w, t + gamma * dt, 1 - gamma}, {last.w, t + dt, gamma}}};
+  const std::vector<Stage> stages = {{first.w, t + gamma * dt, 1 - gamma}, {last.w, t + dt, gamma}};
+  const VectorXd body = (1 - gamma) * dt * f1 + gamma * dt * f2;
+  return {end, impulse(body, stages, dt, end - start), first.converged && last.converged, stages};
 }
 
 std::optional<VectorXd> Stokes::load_of_pressure(const VectorXd& change, double dt,

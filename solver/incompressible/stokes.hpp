@@ -44,8 +44,10 @@ class Stokes {
  private:
   /// Body forces at a time, on velocities [m3/s2].
   [[nodiscard]] VectorXd forces(double t) const;
-  /// Along periodic directions the sum of all forces on a velocity; along others what the momentum gained by.
-  [[nodiscard]] Vec2 impulse(const VectorXd& body, const VectorXd& resistance, const VectorXd& gained) const;
+  /// Along periodic directions the sum of all forces, what resists included, on a velocity; along others what
+  /// the momentum gained by.
+  [[nodiscard]] Vec2 impulse(const VectorXd& body, const std::vector<Stage>& stages, double dt,
+                             const VectorXd& gained) const;
 
   const Scene& scene_;
   const VelocitySpace& space_;

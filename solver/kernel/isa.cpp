@@ -11,17 +11,29 @@ namespace mpm {
 namespace baseline {
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
 std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup);
+std::unique_ptr<PlaneKernel> make_plane_kernel(const PlaneSetup& setup);
+std::unique_ptr<SiteKernel> make_site_kernel(const SiteSetup& setup);
+void flow_curve(const Rheology& fluid, int count, const double* gdot_squared, double* viscosity);
+void dense_product(int rows, int inner, int columns, const double* a, const double* b, double* c);
 }  // namespace baseline
 #ifdef MPM_KERNEL_AVX2
 namespace avx2 {
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
 std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup);
+std::unique_ptr<PlaneKernel> make_plane_kernel(const PlaneSetup& setup);
+std::unique_ptr<SiteKernel> make_site_kernel(const SiteSetup& setup);
+void flow_curve(const Rheology& fluid, int count, const double* gdot_squared, double* viscosity);
+void dense_product(int rows, int inner, int columns, const double* a, const double* b, double* c);
 }  // namespace avx2
 #endif
 #ifdef MPM_KERNEL_AVX512
 namespace avx512 {
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
 std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup);
+std::unique_ptr<PlaneKernel> make_plane_kernel(const PlaneSetup& setup);
+std::unique_ptr<SiteKernel> make_site_kernel(const SiteSetup& setup);
+void flow_curve(const Rheology& fluid, int count, const double* gdot_squared, double* viscosity);
+void dense_product(int rows, int inner, int columns, const double* a, const double* b, double* c);
 }  // namespace avx512
 #endif
 
@@ -31,19 +43,27 @@ struct Isa {
   std::string name;
   std::unique_ptr<Kernel> (*make)(const KernelSetup&);
   std::unique_ptr<FullMassKernel> (*make_full_mass)(const FullMassSetup&);
+  std::unique_ptr<PlaneKernel> (*make_plane)(const PlaneSetup&);
+  std::unique_ptr<SiteKernel> (*make_sites)(const SiteSetup&);
+  FlowCurve curve;
+  DenseProduct multiply;
 };
 
 std::vector<Isa> isas() {
-  std::vector<Isa> found{{"baseline", baseline::make_kernel, baseline::make_full_mass_kernel}};
+  std::vector<Isa> found{{"baseline", baseline::make_kernel, baseline::make_full_mass_kernel,
+                          baseline::make_plane_kernel, baseline::make_site_kernel, baseline::flow_curve,
+                          baseline::dense_product}};
 #ifdef MPM_KERNEL_AVX2
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
-    found.push_back({"avx2", avx2::make_kernel, avx2::make_full_mass_kernel});
+    found.push_back({"avx2", avx2::make_kernel, avx2::make_full_mass_kernel, avx2::make_plane_kernel,
+                     avx2::make_site_kernel, avx2::flow_curve, avx2::dense_product});
 #endif
 #ifdef MPM_KERNEL_AVX512
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl"))
-    found.push_back({"avx512", avx512::make_kernel, avx512::make_full_mass_kernel});
+    found.push_back({"avx512", avx512::make_kernel, avx512::make_full_mass_kernel, avx512::make_plane_kernel,
+                     avx512::make_site_kernel, avx512::flow_curve, avx512::dense_product});
 #endif
   return found;
 }
@@ -110,6 +130,22 @@ std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup) {
 
 std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup) {
   return current().make_full_mass(setup);
+}
+
+std::unique_ptr<PlaneKernel> make_plane_kernel(const PlaneSetup& setup) {
+  return current().make_plane(setup);
+}
+
+std::unique_ptr<SiteKernel> make_site_kernel(const SiteSetup& setup) {
+  return current().make_sites(setup);
+}
+
+FlowCurve flow_curve() {
+  return current().curve;
+}
+
+DenseProduct dense_product() {
+  return current().multiply;
 }
 
 }  // namespace mpm

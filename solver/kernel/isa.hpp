@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "solver/incompressible/lanes/plane_kernel.hpp"
+#include "solver/incompressible/lanes/site_kernel.hpp"
+#include "solver/kernel/dense_product.hpp"
 #include "solver/kernel/full_mass/full_mass_kernel.hpp"
 #include "solver/kernel/kernel.hpp"
 
@@ -28,5 +31,9 @@ void use_threads(int threads);
 /// Kernels of the current instruction set.
 std::unique_ptr<Kernel> make_kernel(const KernelSetup& setup);
 std::unique_ptr<FullMassKernel> make_full_mass_kernel(const FullMassSetup& setup);
+std::unique_ptr<PlaneKernel> make_plane_kernel(const PlaneSetup& setup);
+std::unique_ptr<SiteKernel> make_site_kernel(const SiteSetup& setup);
+FlowCurve flow_curve();
+DenseProduct dense_product();
 
 }  // namespace mpm

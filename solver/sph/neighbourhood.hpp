@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -20,9 +21,10 @@ class Neighbourhood {
   /// The scene must outlive it.
   Neighbourhood(const Scene& scene, const SphScheme& scheme)
       : kernel_(kernel_of(scheme, scene)),
-        skin_(skin_share * kernel_.radius),
+        most_skin_(skin_share * kernel_.radius),
+        skin_(most_skin_),
         wall_limit_(scheme.wall_limit),
-        surroundings_(scene, scheme.wall, kernel_.radius + skin_) {}
+        surroundings_(scene, scheme.wall, kernel_.radius + most_skin_) {}
 
   /// Entries: the fluid first, in the order of the particles, then what stands around it.
   std::vector<Neighbour>& entries() { return entries_; }
@@ -36,7 +38,12 @@ class Neighbourhood {
     surroundings_.rebuild(position);
     entries_.resize(surroundings_.size());
   }
-  void list_pairs(std::size_t fluid) {
+  /// `move`: how far particles moved in the last step, at most [m]. A skin s of the support adds 2 s of the
+  /// pairs to every step, and spreads the price of a list, that of some three steps, over s support/(2 move)
+  /// steps: s^2 = 3 move/support is the cheapest.
+  void list_pairs(std::size_t fluid, double move) {
+    constexpr double steps_a_list = 3;
+    skin_ = std::clamp(std::sqrt(steps_a_list * move * kernel_.radius), 0.1 * most_skin_, most_skin_);
     list_.rebuild(entries_, fluid, surroundings_.wall_begin(), kernel_.radius + skin_);
     moved_ = 0;
   }
@@ -105,7 +112,7 @@ class Neighbourhood {
 
  private:
   SmoothingKernel kernel_;
-  double skin_;
+  double most_skin_, skin_;
   double wall_limit_;
   Surroundings surroundings_;
   NeighbourList list_;

@@ -47,7 +47,7 @@ class SphSolver final : public Simulation {
         wall_force_(size(), Vec2::Zero()),
         density_rate_(size(), 0.0),
         extrapolated_(velocity_) {
-    find_neighbours();
+    find_neighbours(0);
     evaluate(scene.start, 0);
   }
 
@@ -62,7 +62,8 @@ class SphSolver final : public Simulation {
     impulse_ += 0.5 * dt * force_;
     breakdown_ = breakdown_of(scene_, position_, velocity_, density_, dt * std::sqrt(fastest));
     if (breakdown_) return;
-    if (near_.outdated_after(dt * std::sqrt(fastest))) find_neighbours();
+    const double move = dt * std::sqrt(fastest);
+    if (near_.outdated_after(move)) find_neighbours(move);
     evaluate(t + dt, dt);
     for (std::size_t p = 0; p < size(); ++p) velocity_[p] += 0.5 * dt * acceleration_[p];
     impulse_ += 0.5 * dt * force_;
@@ -123,11 +124,11 @@ class SphSolver final : public Simulation {
       if (scene_.periodic(axis)) x[axis] -= scene_.size[axis] * std::floor(x[axis] / scene_.size[axis]);
   }
 
-  void find_neighbours() {
+  void find_neighbours(double move) {
     for (Vec2& x : position_) wrap(x);
     near_.surround(position_);
     refresh(scene_.start);
-    near_.list_pairs(size());
+    near_.list_pairs(size(), move);
   }
 
   /// Entries of the fluid as it stands, with the velocities that forces act on, and their surroundings.
@@ -148,7 +149,7 @@ class SphSolver final : public Simulation {
 
   /// Density, viscosity, and the acceleration at time t [s] after a step of dt.
   void evaluate(double t, double dt) {
-    const bool follows_density = Pressure::varies && !sums_density();
+    const bool keeps_slopes = Pressure::varies && !sums_density() && dt > 0;
     gravity_ = scene_.body_acceleration ? scene_.body_acceleration(t) : Vec2(Vec2::Zero());
     if constexpr (Pressure::varies) {
       if (sums_density()) {
@@ -164,13 +165,14 @@ class SphSolver final : public Simulation {
     if constexpr (generalised) {
       refresh(t);
       stress_.resize(near_.entries().size());
-      team_.run(static_cast<int>((size() + block - 1) / block), [&](int share) { find_viscosities(share); });
+      team_.run(static_cast<int>((size() + block - 1) / block),
+                [&](int share) { find_viscosities(share, keeps_slopes); });
       near_.surroundings().fill(stress_);
     } else {
       for (std::size_t p = 0; p < size(); ++p) near_.entries()[p].viscosity = rheology_.viscosity();
     }
     refresh(t);
-    if (follows_density && dt > 0)
+    if (keeps_slopes)
       for_particles([&](std::size_t p) { find_acceleration(p, near_.kept_slope(p)); });
     else
       for_particles([&](std::size_t p) { find_acceleration(p, near_.fresh_slope()); });
@@ -200,14 +202,18 @@ class SphSolver final : public Simulation {
   }
 
   /// L = grad v of a particle, by differences.
-  [[nodiscard]] Mat2 velocity_gradient(std::size_t p) const {
+  template <class Slope>
+  [[nodiscard]] Mat2 velocity_gradient(std::size_t p, const Slope& slope) const {
     const std::vector<Neighbour>& entries = near_.entries();
-    Mat2 l = Mat2::Zero();
+    double xx = 0, xy = 0, yx = 0, yy = 0;
     const auto add = [&](const Vec2& dv, const Vec2& d, double volume_f) {
-      l -= volume_f * dv * d.transpose();
+      xx -= volume_f * dv.x() * d.x();
+      xy -= volume_f * dv.x() * d.y();
+      yx -= volume_f * dv.y() * d.x();
+      yy -= volume_f * dv.y() * d.y();
     };
     near_.for_pairs(
-        p, near_.fresh_slope(),
+        p, slope,
         [&](std::uint32_t e, const Vec2& d, double f) {
           const Neighbour& n = entries[e];
           add(entries[p].velocity - n.velocity, d, n.mass * n.inverse_density * f);
@@ -216,17 +222,21 @@ class SphSolver final : public Simulation {
           const Neighbour& n = entries[e];
           add(near_.velocity_to_wall(p, e), d, n.mass * n.inverse_density * f);
         });
+    Mat2 l;
+    l << xx, xy, yx, yy;
     return l;
   }
 
   /// Viscosities of a block of particles from gdot^2 = 2 D:D, in one call on an array, and mu L.
-  void find_viscosities(int share) {
+  void find_viscosities(int share, bool keeps_slopes) {
     using Array = Eigen::Array<double, static_cast<int>(block), 1>;
     const std::size_t begin = static_cast<std::size_t>(share) * block;
     const std::size_t count = std::min(block, size() - begin);
     Array gdot_squared = Array::Ones();  // beyond `count` a harmless value
     for (std::size_t k = 0; k < count; ++k) {
-      const Mat2 l = stress_[begin + k] = velocity_gradient(begin + k);
+      const std::size_t p = begin + k;
+      const Mat2 l = stress_[p] = keeps_slopes ? velocity_gradient(p, near_.kept_slope(p))
+                                               : velocity_gradient(p, near_.fresh_slope());
       gdot_squared[static_cast<Eigen::Index>(k)] = (l + l.transpose()).squaredNorm() / 2;
     }
     if constexpr (generalised) {
@@ -239,9 +249,11 @@ class SphSolver final : public Simulation {
     }
   }
 
-  /// (T_i + T_j) x_ij of a pair, from the sum of their mu L.
-  [[nodiscard]] static Vec2 transposed_part(const Mat2& stress, const Vec2& d) {
-    return stress.transpose() * d - 2.0 / 3.0 * stress.trace() * d;
+  /// (T_i + T_j) x_ij of a pair, from their mu L. Term by term: the compiler calls the products of Mat2.
+  [[nodiscard]] static Vec2 transposed_part(const Mat2& a, const Mat2& b, const Vec2& d) {
+    const double xx = a(0, 0) + b(0, 0), yy = a(1, 1) + b(1, 1), third = 2.0 / 3.0 * (xx + yy);
+    return {(xx - third) * d.x() + (a(1, 0) + b(1, 0)) * d.y(),
+            (a(0, 1) + b(0, 1)) * d.x() + (yy - third) * d.y()};
   }
 
   template <class Slope>
@@ -252,7 +264,7 @@ class SphSolver final : public Simulation {
     const auto of_pair = [&](const Neighbour& n, std::size_t e, const Vec2& d, const Vec2& dv, double f) {
       const double mass_f = n.mass * f, volumes = own.inverse_density * n.inverse_density;
       Vec2 viscous = (own.viscosity + n.viscosity) * volumes * dv;
-      if constexpr (generalised) viscous += volumes * transposed_part(stress_[p] + stress_[e], d);
+      if constexpr (generalised) viscous += volumes * transposed_part(stress_[p], stress_[e], d);
       if constexpr (Pressure::varies)
         return Vec2(mass_f * (viscous - (own.pressure_term + n.pressure_term) * d));
       else

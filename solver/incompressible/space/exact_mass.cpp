@@ -48,18 +48,8 @@ VectorXd ExactMass::solved(const VectorXd& loads) const {
 }
 
 SparseMatrix ExactMass::matrix() const {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const int c : {0, 1}) {
-    const SparseMatrix block = kronecker(along(c, 1).mass, along(c, 0).mass);
-    const auto first = static_cast<int>(c == 0 ? 0 : space_.size(0));
-    for (int k = 0; k < block.outerSize(); ++k)
-      for (SparseMatrix::InnerIterator it(block, k); it; ++it)
-        entries.emplace_back(first + static_cast<int>(it.row()), first + static_cast<int>(it.col()),
-                             it.value());
-  }
-  SparseMatrix all(space_.size(), space_.size());
-  all.setFromTriplets(entries.begin(), entries.end());
-  return all;
+  return block_diagonal(kronecker(along(0, 1).mass, along(0, 0).mass),
+                        kronecker(along(1, 1).mass, along(1, 0).mass));
 }
 
 }  // namespace mpm::incompressible

@@ -38,9 +38,12 @@ MatrixXd cosines(int n) {
 
 }  // namespace
 
-SolenoidalFactor::SolenoidalFactor(const VelocitySpace& space, const SparseMatrix& matrix) {
+SolenoidalFactor::SolenoidalFactor(const VelocitySpace& space, const SparseMatrix& matrix,
+                                   const std::optional<Diffusion>& diffusion) {
   if (space.axis(0).periodic() && space.axis(1).periodic()) {
     fourier_ = fourier(space, matrix);
+  } else if (!space.axis(0).periodic() && !space.axis(1).periodic()) {
+    walled_.emplace(space, diffusion);
   } else {
     cholesky_.compute(matrix);
     if (cholesky_.info() != Eigen::Success) throw SceneError("the mass of this grid could not be factorised");
@@ -48,7 +51,8 @@ SolenoidalFactor::SolenoidalFactor(const VelocitySpace& space, const SparseMatri
 }
 
 VectorXd SolenoidalFactor::solve(const VectorXd& load) const {
-  return fourier_ ? solve(*fourier_, load) : VectorXd(cholesky_.solve(load));
+  if (fourier_) return solve(*fourier_, load);
+  return walled_ ? walled_->solve(load) : VectorXd(cholesky_.solve(load));
 }
 
 SolenoidalFactor::Fourier SolenoidalFactor::fourier(const VelocitySpace& space, const SparseMatrix& matrix) {
@@ -67,19 +71,21 @@ SolenoidalFactor::Fourier SolenoidalFactor::fourier(const VelocitySpace& space, 
     throw SceneError("the mass of this grid could not be factorised");
   MatrixXd inverse = eigenvalues.cwiseInverse();
   inverse(0, 0) = 0;
-  return {fourier_modes(nx), fourier_modes(ny), std::move(inverse), uniform};
+  const MatrixXd x = ModeProducts::zero_padded(fourier_modes(nx)),
+                 y = ModeProducts::zero_padded(fourier_modes(ny));
+  return {nx, ny, x, y, x.transpose(), y.transpose(), ModeProducts::zero_padded(inverse), uniform, {}};
 }
 
 VectorXd SolenoidalFactor::solve(const Fourier& fourier, const VectorXd& load) {
-  const auto &qx = fourier.modes_x, &qy = fourier.modes_y;
-  const Eigen::Index curls = qx.rows() * qy.rows() - 1;
-  MatrixXd psi(qx.rows(), qy.rows());
-  psi.reshaped().head(curls) = load.head(curls);
-  psi(psi.rows() - 1, psi.cols() - 1) = -load.head(curls).sum();
-  const MatrixXd amplitudes = fourier.inverse.cwiseProduct(qx.transpose() * psi * qy);
-  psi.noalias() = qx * amplitudes * qy.transpose();
+  const Eigen::Index rows = fourier.rows, columns = fourier.columns, curls = rows * columns - 1;
   VectorXd w(load.size());
-  w.head(curls) = psi.reshaped().head(curls).array() - psi(psi.rows() - 1, psi.cols() - 1);
+  w.head(curls) = load.head(curls);
+  w[curls] = -load.head(curls).sum();
+  MatrixXd psi = ModeProducts::zero_padded(w.head(curls + 1).reshaped(rows, columns));
+  fourier.multiply(fourier.transposed_x, psi, fourier.modes_y, psi);
+  psi = fourier.inverse.cwiseProduct(psi);
+  fourier.multiply(fourier.modes_x, psi, fourier.transposed_y, psi);
+  w.head(curls + 1) = (psi.topLeftCorner(rows, columns).array() - psi(rows - 1, columns - 1)).reshaped();
   for (const int a : {0, 1}) w[curls + a] = load[curls + a] / fourier.uniform[a];
   return w;
 }

@@ -33,14 +33,40 @@ SparseMatrix derivative_between_unknowns(const SplineAxis& axis) {
 }  // namespace
 
 SparseMatrix kronecker(const SparseMatrix& along_y, const SparseMatrix& along_x) {
-  Triplets entries;
-  entries.reserve(static_cast<std::size_t>(along_x.nonZeros() * along_y.nonZeros()));
-  for (int k = 0; k < along_y.outerSize(); ++k)
-    for (SparseMatrix::InnerIterator y(along_y, k); y; ++y)
-      append(entries, along_x, y.row() * along_x.rows(), y.col() * along_x.cols(), y.value());
   SparseMatrix product(along_x.rows() * along_y.rows(), along_x.cols() * along_y.cols());
-  product.setFromTriplets(entries.begin(), entries.end());
+  product.reserve(along_x.nonZeros() * along_y.nonZeros());
+  for (int j = 0; j < along_y.outerSize(); ++j)
+    for (int i = 0; i < along_x.outerSize(); ++i) {
+      const Eigen::Index column = i + j * along_x.cols();
+      product.startVec(column);
+      for (SparseMatrix::InnerIterator y(along_y, j); y; ++y)
+        for (SparseMatrix::InnerIterator x(along_x, i); x; ++x)
+          product.insertBack(x.row() + y.row() * along_x.rows(), column) = x.value() * y.value();
+    }
+  product.finalize();
   return product;
+}
+
+SparseMatrix block_diagonal(const SparseMatrix& first, const SparseMatrix& second) {
+  SparseMatrix both(first.rows() + second.rows(), first.cols() + second.cols());
+  both.reserve(first.nonZeros() + second.nonZeros());
+  for (const SparseMatrix* block : {&first, &second}) {
+    const Eigen::Index row = block == &first ? 0 : first.rows(), column = block == &first ? 0 : first.cols();
+    for (int k = 0; k < block->outerSize(); ++k) {
+      both.startVec(column + k);
+      for (SparseMatrix::InnerIterator it(*block, k); it; ++it)
+        both.insertBack(row + it.row(), column + k) = it.value();
+    }
+  }
+  both.finalize();
+  return both;
+}
+
+SparseMatrix reduced_to(const SparseMatrix& basis, const SparseMatrix& form) {
+  const SparseMatrix turned = basis.transpose(), of_basis = form * basis;
+  SparseMatrix reduced = turned * of_basis;
+  reduced.prune(0.0);
+  return reduced;
 }
 
 PlaceInCell::PlaceInCell(const SplineAxis& axis, double x) {
@@ -52,7 +78,32 @@ PlaceInCell::PlaceInCell(const SplineAxis& axis, double x) {
 
 VelocitySpace::VelocitySpace(const Scene& scene, int degree)
     : axes_{SplineAxis(scene.size.x(), scene.cells[0], scene.periodic(0), degree),
-            SplineAxis(scene.size.y(), scene.cells[1], scene.periodic(1), degree)} {}
+            SplineAxis(scene.size.y(), scene.cells[1], scene.periodic(1), degree)} {
+  const CellPoints gauss = cell_points(Seeding::Rule::Gauss, degree + 1);
+  std::array<std::vector<double>, 2> places;
+  for (const std::size_t a : {0, 1}) {
+    const SplineAxis& along = axes_[a];
+    std::array<Triplets, 2> entries;
+    for (int cell = 0; cell < along.cells(); ++cell)
+      for (std::size_t g = 0; g < gauss.position.size(); ++g) {
+        for (const int less : {0, 1}) {
+          const VectorXd values =
+              gauss.weight[g] * along.cell_size() * along.values(less, cell, gauss.position[g]);
+          for (int m = 0; m < values.size(); ++m)
+            entries[static_cast<std::size_t>(less)].emplace_back(cell + m, static_cast<int>(places[a].size()),
+                                                                 values[m]);
+        }
+        places[a].push_back((cell + gauss.position[g]) * along.cell_size());
+      }
+    for (const std::size_t less : {0, 1}) {
+      integrals_[a][less].resize(along.functions(static_cast<int>(less)),
+                                 static_cast<Eigen::Index>(places[a].size()));
+      integrals_[a][less].setFromTriplets(entries[less].begin(), entries[less].end());
+    }
+  }
+  for (const double y : places[1])
+    for (const double x : places[0]) points_.emplace_back(x, y);
+}
 
 void VelocitySpace::extend(int component, const double* of, MatrixXd& to) const {
   const Unknowns &x = unknowns(component, 0), &y = unknowns(component, 1);
@@ -135,34 +186,20 @@ SparseMatrix VelocitySpace::divergence() const {
 
 VectorXd VelocitySpace::load(
     const std::function<void(const VectorField& points, VectorField& values)>& field) const {
-  const SplineAxis &x = axis(0), &y = axis(1);
-  const CellPoints gauss = cell_points(Seeding::Rule::Gauss, degree() + 1);
-  const std::size_t points_a_cell = gauss.position.size() * gauss.position.size();
-  VectorField points;
-  for (int cy = 0; cy < y.cells(); ++cy)
-    for (int cx = 0; cx < x.cells(); ++cx)
-      for (const double eta : gauss.position)
-        for (const double xi : gauss.position)
-          points.emplace_back((cx + xi) * x.cell_size(), (cy + eta) * y.cell_size());
-  VectorField values(points.size(), Vec2::Zero());
-  field(points, values);
-
-  VelocityField sums{MatrixXd::Zero(x.functions(0), y.functions(1)),
-                     MatrixXd::Zero(x.functions(1), y.functions(0))};
-  const int k = degree();
-  for (int cy = 0; cy < y.cells(); ++cy)
-    for (int cx = 0; cx < x.cells(); ++cx) {
-      const auto first = static_cast<std::size_t>(cy * x.cells() + cx) * points_a_cell;
-      for (std::size_t q = 0; q < points_a_cell; ++q) {
-        const std::size_t a = q % gauss.position.size(), b = q / gauss.position.size();
-        const double dA = gauss.weight[a] * gauss.weight[b] * x.cell_size() * y.cell_size();
-        const Vec2 f = dA * values[first + q];
-        const double xi = gauss.position[a], eta = gauss.position[b];
-        sums.u.block(cx, cy, k + 1, k) += f.x() * x.values(0, cx, xi) * y.values(1, cy, eta).transpose();
-        sums.v.block(cx, cy, k, k + 1) += f.y() * x.values(1, cx, xi) * y.values(0, cy, eta).transpose();
-      }
-    }
-  return folded(sums);
+  VectorField values(points_.size(), Vec2::Zero());
+  field(points_, values);
+  const Eigen::Map<const MatrixXd, 0, Eigen::Stride<Eigen::Dynamic, 2>> u(
+      values.front().data(), integrals_[0][0].cols(), integrals_[1][0].cols(),
+      {2 * integrals_[0][0].cols(), 2}),
+      v(values.front().data() + 1, integrals_[0][0].cols(), integrals_[1][0].cols(),
+        {2 * integrals_[0][0].cols(), 2});
+  const auto integrated = [](const SparseMatrix& along_x, const MatrixXd& at_points,
+                             const SparseMatrix& along_y) -> MatrixXd {
+    const MatrixXd turned = (along_x * at_points).transpose();
+    return (along_y * turned).transpose();
+  };
+  return folded(
+      {integrated(integrals_[0][0], u, integrals_[1][1]), integrated(integrals_[0][1], v, integrals_[1][0])});
 }
 
 Vec2 VelocitySpace::value(const VelocityField& field, const Vec2& x) const {

@@ -17,6 +17,10 @@ struct VelocityField {
 /// Kronecker product for arrays whose rows run along x: (along_y (x) along_x) vec(A) = vec(along_x A
 /// along_y^T).
 SparseMatrix kronecker(const SparseMatrix& along_y, const SparseMatrix& along_x);
+/// Two matrices, of u and of v, as one of both.
+SparseMatrix block_diagonal(const SparseMatrix& first, const SparseMatrix& second);
+/// Z^T A Z for a basis Z, without the entries that cancel.
+SparseMatrix reduced_to(const SparseMatrix& basis, const SparseMatrix& form);
 
 /// The pair S_k x S_{k-1}, S_{k-1} x S_k on a scene's grid: its divergences fill S_{k-1} x S_{k-1}, so that a
 /// velocity whose divergence vanishes against that space vanishes at every point (Evans & Hughes 2013).
@@ -64,6 +68,8 @@ class VelocitySpace {
 
  private:
   std::array<SplineAxis, 2> axes_;
+  VectorField points_;                                    // Gauss points of all cells, row by row
+  std::array<std::array<SparseMatrix, 2>, 2> integrals_;  // by axis, less: from values there to integrals
 };
 
 /// Cell of a coordinate and the place in it, in [0, 1].

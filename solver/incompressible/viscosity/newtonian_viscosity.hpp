@@ -19,7 +19,7 @@ class NewtonianViscosity final : public Viscosity {
         basis_(basis),
         mass_(mass),
         form_(space, scene, shares),
-        matrix_((basis.transpose() * form_.matrix() * basis).pruned()) {}
+        matrix_(reduced_to(basis, form_.matrix())) {}
 
   [[nodiscard]] VectorXd force(const VectorXd& w, double t) const override {
     return nu_ * (matrix_ * w - basis_.transpose() * form_.wall_load(t));
@@ -33,7 +33,9 @@ class NewtonianViscosity final : public Viscosity {
     constexpr std::size_t most = 6;  // steps of a run differ where they end on an output
     if (factors_.size() > most && !factors_.contains(a)) factors_.clear();
     std::unique_ptr<SolenoidalFactor>& factor = factors_[a];
-    if (!factor) factor = std::make_unique<SolenoidalFactor>(space_, mass_ + (a * nu_) * matrix_);
+    if (!factor)
+      factor = std::make_unique<SolenoidalFactor>(space_, mass_ + (a * nu_) * matrix_,
+                                                  Diffusion{a * nu_, form_.held()});
     return {factor->solve(load + (a * nu_) * (basis_.transpose() * form_.wall_load(t))), true};
   }
 

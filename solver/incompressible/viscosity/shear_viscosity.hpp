@@ -6,6 +6,7 @@
 
 #include "solver/incompressible/space/stream_function.hpp"
 #include "solver/incompressible/viscosity/flow_law.hpp"
+#include "solver/incompressible/viscosity/tangent_matrix.hpp"
 #include "solver/incompressible/viscosity/viscosity.hpp"
 #include "solver/scene/seeding.hpp"
 
@@ -24,10 +25,14 @@ class ShearViscosity : public Viscosity {
  public:
   ShearViscosity(const Scene& scene, const VelocitySpace& space, const SparseMatrix& mass, FlowLaw law,
                  const WallShares& shares = {})
-      : law_(std::move(law)), psi_(space), mass_(mass) {
+      : law_(std::move(law)),
+        psi_(space),
+        mass_(mass),
+        sites_(make_site_kernel(site_setup(space))),
+        inner_(sites_->size()),
+        weight_(Eigen::Map<const VectorXd>(sites_->weights(), inner_)),
+        matrix_(psi_, space.axis(0).cells(), space.axis(1).cells(), K, mass) {
     const std::array<std::vector<Line>, 2> lines = {gauss_lines(space.axis(0)), gauss_lines(space.axis(1))};
-    for (const Line& y : lines[1])
-      for (const Line& x : lines[0]) inner_.push_back({x, y, x.weight * y.weight});
     for (const int across : {0, 1}) {
       const SplineAxis& axis = space.axis(across);
       if (axis.periodic()) continue;
@@ -43,17 +48,17 @@ class ShearViscosity : public Viscosity {
                             shares[edge] ? shares[edge](along.place) : 1.0});
       }
     }
+    factor_.analyzePattern(matrix_.with_mass(0));
   }
 
-  [[nodiscard]] VectorXd force(const VectorXd& w, double t) const override {
-    const State state = state_of(w);
+  [[nodiscard]] [[gnu::flatten]] VectorXd force(const VectorXd& w, double t) const override {
+    const State state = state_of(w, Slopes::OnWalls);
     MatrixXd sum = MatrixXd::Zero(state.psi.rows(), state.psi.cols());
-    for (std::size_t i = 0; i < inner_.size(); ++i) {
-      const Site& s = inner_[i];
-      const auto n = static_cast<Eigen::Index>(i);
-      const double f = s.weight * state.nu[n];
-      at(sum, s) += 4 * f * state.xy[n] * xy_of(s) + f * state.shear[n] * shear_of(s);
-    }
+    const VectorXd of_shear =
+        weight_.cwiseProduct(state.nu.head(inner_)).cwiseProduct(state.shear.head(inner_));
+    const VectorXd of_xy =
+        4 * weight_.cwiseProduct(state.nu.head(inner_)).cwiseProduct(state.xy.head(inner_));
+    sites_->add_forces(of_xy.data(), of_shear.data(), sum.data());
     for (std::size_t i = 0; i < walls_.size(); ++i) {
       const Wall& s = walls_[i];
       const Tangent tangent = tangent_at(state, i);
@@ -112,54 +117,55 @@ class ShearViscosity : public Viscosity {
   }
 
   /// The symmetric matrix that Newton's method takes for dN/dw: all but what vanishes where walls are met.
-  [[nodiscard]] SparseMatrix tangent(const VectorXd& w) const { return tangent(state_of(w), w.size()); }
+  [[nodiscard]] SparseMatrix tangent(const VectorXd& w) {
+    find_tangent(state_of(w, Slopes::Everywhere));
+    return matrix_.tangent();
+  }
 
  protected:
-  /// The field at all sites, inner ones first.
+  /// The field at all sites, those of walls last.
   struct State {
     MatrixXd psi;
     VectorXd xy, shear, nu, slope;  // psi_xy, psi_yy - psi_xx [1/s]; the law there
   };
+  /// Where the slope of the law is asked for.
+  enum class Slopes { OnWalls, Everywhere };
 
-  [[nodiscard]] SparseMatrix tangent(const State& state, Eigen::Index size_of_w) const {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(inner_.size() / ((K + 1) * (K + 1)) * size * size);
-    CellBlock block;
-    const auto per_line = static_cast<std::size_t>(K + 1);
-    const std::size_t in_row = static_cast<std::size_t>(state.psi.rows() - K) * per_line;
-    for (std::size_t cy = 0; cy * per_line * in_row < inner_.size(); ++cy)
-      for (std::size_t cx = 0; cx * per_line < in_row; ++cx) {
-        block.setZero();
-        for (std::size_t b = 0; b < per_line; ++b)
-          for (std::size_t a = 0; a < per_line; ++a) {
-            const std::size_t i = (cy * per_line + b) * in_row + cx * per_line + a;
-            const auto n = static_cast<Eigen::Index>(i);
-            const Block xy = xy_of(inner_[i]), shear = shear_of(inner_[i]);
-            const Block along_q = 4 * state.xy[n] * xy + state.shear[n] * shear;
-            const double f = inner_[i].weight * state.nu[n];
-            add(block, 4 * f, xy, xy);
-            add(block, f, shear, shear);
-            add(block, 2 * inner_[i].weight * state.slope[n], along_q, along_q);
-          }
-        scatter(entries, inner_[cy * per_line * in_row + cx * per_line], block);
-      }
+  [[gnu::flatten]] void find_tangent(const State& state) {
+    matrix_.clear();
+    const auto xy = state.xy.head(inner_).array(), shear = state.shear.head(inner_).array();
+    const Eigen::ArrayXd along = weight_.array() * state.nu.head(inner_).array();
+    const Eigen::ArrayXd steeper = 2 * weight_.array() * state.slope.head(inner_).array();
+    const Eigen::ArrayXd xx = 4 * along + 16 * steeper * xy.square(), xs = 4 * steeper * xy * shear,
+                         ss = along + steeper * shear.square();
+    sites_->tangents(
+        xx.data(), xs.data(), ss.data(),
+        [](void* matrix, int cell_x, int cell_y, const double* entries, int pitch) {
+          static_cast<TangentMatrix*>(matrix)->add(cell_x, cell_y, entries, pitch);
+        },
+        &matrix_);
+    CellBlock block = CellBlock::Zero();
     for (std::size_t i = 0; i < walls_.size(); ++i) {
       const Wall& s = walls_[i];
       const Tangent tangent = tangent_at(state, i);
-      const Block along = along_of(s), shear = shear_of(s);
-      block.setZero();
+      const Block along_wall = along_of(s), of_shear = shear_of(s);
       if (s.side->slip_length > 0) {
-        add(block, s.weight * tangent.nu * s.holds, along, along);
+        add(block, s.weight * tangent.nu * s.holds, along_wall, along_wall);
       } else {
-        add(block, s.weight * tangent.held * s.holds, along, along);
-        add(block, -s.weight * tangent.slope * s.sign, along, shear);
-        add(block, -s.weight * tangent.slope * s.sign, shear, along);
+        add(block, s.weight * tangent.held * s.holds, along_wall, along_wall);
+        add(block, -s.weight * tangent.slope * s.sign, along_wall, of_shear);
+        add(block, -s.weight * tangent.slope * s.sign, of_shear, along_wall);
       }
-      scatter(entries, s, block);
+      const bool ends_cell =
+          i + 1 == walls_.size() || walls_[i + 1].x.cell != s.x.cell || walls_[i + 1].y.cell != s.y.cell;
+      if (!ends_cell) continue;
+      std::array<double, size*(size + 1) / 2> entries;
+      std::size_t e = 0;
+      for (int n = 0; n < size; ++n)
+        for (int m = 0; m <= n; ++m) entries[e++] = block(m, n);
+      matrix_.add(s.x.cell, s.y.cell, entries.data(), 1);
+      block.setZero();
     }
-    SparseMatrix matrix(size_of_w, size_of_w);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
   }
 
   static constexpr int size = (K + 1) * (K + 1);
@@ -179,19 +185,15 @@ class ShearViscosity : public Viscosity {
     Weights value, slope, curvature;
     double weight, place;  // [m]
   };
-  struct Site {
+  /// On a wall.
+  struct Wall {
     Line x, y;
-    double weight;  // [m2], on walls [m]
-  };
-  struct Wall : Site {
+    double weight;  // [m]
     const Side* side;
     int across;    // axis
     double sign;   // of the outward normal
     double holds;  // [1/m]
     double moves;  // share of the side's velocity
-    Wall(const Line& lx, const Line& ly, double weight, const Side* of, int axis, double normal, double held,
-         double share)
-        : Site{lx, ly, weight}, side(of), across(axis), sign(normal), holds(held), moves(share) {}
   };
   struct Tangent {
     double rate;   // d u_t/dn [1/s]
@@ -212,13 +214,25 @@ class ShearViscosity : public Viscosity {
         lines.push_back(line(axis, cell, gauss.position[g], gauss.weight[g] * axis.cell_size()));
     return lines;
   }
+  static SiteSetup site_setup(const VelocitySpace& space) {
+    SiteSetup setup{K, {space.axis(0).cells(), space.axis(1).cells()}, {}, {}};
+    for (const std::size_t a : {0, 1})
+      for (const Line& line : gauss_lines(space.axis(static_cast<int>(a)))) {
+        setup.weights[a].push_back(line.weight);
+        for (Eigen::Index m = 0; m <= K; ++m) {
+          setup.functions[a][0].push_back(line.value[m]);
+          setup.functions[a][1].push_back(line.slope[m]);
+          setup.functions[a][2].push_back(line.curvature[m]);
+        }
+      }
+    return setup;
+  }
 
   template <class Matrix>
-  static auto at(Matrix& psi, const Site& s) {
+  static auto at(Matrix& psi, const Wall& s) {
     return psi.template block<K + 1, K + 1>(s.x.cell, s.y.cell);
   }
-  static Block xy_of(const Site& s) { return s.x.slope * s.y.slope.transpose(); }
-  static Block shear_of(const Site& s) {
+  static Block shear_of(const Wall& s) {
     return s.x.value * s.y.curvature.transpose() - s.x.curvature * s.y.value.transpose();
   }
   /// Velocity along a wall: u = psi_y, v = -psi_x.
@@ -230,10 +244,9 @@ class ShearViscosity : public Viscosity {
     block.noalias() += factor * Flat(a.data()) * Flat(b.data()).transpose();
   }
 
-  [[nodiscard]] State state_of(const VectorXd& w) const {
+  [[nodiscard]] State state_of(const VectorXd& w, Slopes slopes) const {
     State state = rates_of(w);
-    const VectorXd q = 4 * state.xy.array().square() + state.shear.array().square();
-    law_(q, state.nu, state.slope);
+    find_law(state, slopes);
     return state;
   }
 
@@ -241,50 +254,52 @@ class ShearViscosity : public Viscosity {
   [[nodiscard]] State rates_of(const VectorXd& w) const {
     State state;
     state.psi = psi_.extended(w);
-    const auto count = static_cast<Eigen::Index>(inner_.size() + walls_.size());
+    const Eigen::Index count = inner_ + static_cast<Eigen::Index>(walls_.size());
     state.xy.resize(count);
     state.shear.resize(count);
-    Eigen::Index n = 0;
-    const auto look = [&](const Site& s) {
+    sites_->rates(state.psi.data(), state.xy.data(), state.shear.data());
+    Eigen::Index n = inner_;
+    for (const Wall& s : walls_) {
       const Block psi = at(state.psi, s);
       state.xy[n] = s.x.slope.dot(psi * s.y.slope);
       state.shear[n++] = s.x.value.dot(psi * s.y.curvature) - s.x.curvature.dot(psi * s.y.value);
-    };
-    for (const Site& s : inner_) look(s);
-    for (const Wall& s : walls_) look(s);
+    }
     return state;
   }
 
+  void find_law(State& state, Slopes slopes) const {
+    const VectorXd q = FlowLaw::bounded_below(4 * state.xy.array().square() + state.shear.array().square());
+    state.nu = law_.viscosity(q);
+    state.slope.setZero(q.size());
+    const Eigen::Index asked = slopes == Slopes::Everywhere ? q.size() : q.size() - inner_;
+    state.slope.tail(asked) = law_.slope(q.tail(asked), state.nu.tail(asked));
+  }
+
   [[nodiscard]] Tangent tangent_at(const State& state, std::size_t wall) const {
-    const auto n = static_cast<Eigen::Index>(inner_.size() + wall);
+    const Eigen::Index n = inner_ + static_cast<Eigen::Index>(wall);
     const double rate = walls_[wall].sign * state.shear[n], nu = state.nu[n];
     const double slope = nu + 2 * rate * rate * state.slope[n];
     return {rate, nu, slope, std::max(nu, slope)};
   }
 
-  void scatter(std::vector<Eigen::Triplet<double>>& entries, const Site& s, const CellBlock& block) const {
-    std::array<StreamFunction::Share, size> share;
-    for (int j = 0; j <= K; ++j)
-      for (int i = 0; i <= K; ++i)
-        share[static_cast<std::size_t>(i + (K + 1) * j)] = psi_.share(s.x.cell + i, s.y.cell + j);
-    for (int c = 0; c < size; ++c)
-      for (int r = 0; r < size; ++r) {
-        const auto &row = share[static_cast<std::size_t>(r)], &column = share[static_cast<std::size_t>(c)];
-        if (row.coordinate >= 0 && column.coordinate >= 0)
-          entries.emplace_back(row.coordinate, column.coordinate, row.sign * column.sign * block(r, c));
-      }
+  /// M + a dN/dw at a state.
+  void factorise(double a, const State& state) {
+    find_tangent(state);
+    factor_.factorize(matrix_.with_mass(a));
   }
-
   void factorise(double a, const VectorXd& w) {
-    factor_.compute(mass_ + a * tangent(w));
+    factorise(a, state_of(w, Slopes::Everywhere));
     factorised_for_ = a;
   }
 
   FlowLaw law_;
   StreamFunction psi_;
   const SparseMatrix& mass_;
-  std::vector<Site> inner_;
+  std::unique_ptr<SiteKernel> sites_;
+  Eigen::Index inner_;  // numbers of a field at the sites in the cells
+  VectorXd weight_;     // of these [m2]
   std::vector<Wall> walls_;
+  TangentMatrix matrix_;
   Eigen::SimplicialLDLT<SparseMatrix> factor_;
   double factorised_for_ = -1;
 };

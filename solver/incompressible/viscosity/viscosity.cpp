@@ -13,7 +13,7 @@ std::unique_ptr<Viscosity> make(const Scene& scene, const VelocitySpace& space, 
   if (const auto* yielding = std::get_if<HerschelBulkley>(&scene.fluid.rheology))
     return std::make_unique<YieldViscosity<K>>(scene, space, mass, *yielding, shares);
   return std::make_unique<ShearViscosity<K>>(scene, space, mass,
-                                             flow_law(scene.fluid.rheology, scene.fluid.density), shares);
+                                             FlowLaw(scene.fluid.rheology, scene.fluid.density), shares);
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ VectorXd folded(const VectorXd& functions, const Unknowns& unknowns) {
 }  // namespace
 
 ViscousForm::ViscousForm(const VelocitySpace& space, const Scene& scene, const WallShares& shares)
-    : space_(space), matrix_(space.size(), space.size()) {
-  std::vector<Eigen::Triplet<double>> entries;
+    : space_(space) {
+  std::array<SparseMatrix, 2> blocks;
   for (const int component : {0, 1}) {
     const int across = 1 - component;  // the axis along which walls hold this component back
     const SplineAxis &normal = space.axis(component), &tangential = space.axis(across);
@@ -74,22 +74,19 @@ ViscousForm::ViscousForm(const VelocitySpace& space, const Scene& scene, const W
           load;
       walls_.push_back({&side, component, both});
     }
+    held_[static_cast<std::size_t>(across)] = held;
     const SparseMatrix along_normal =
         over_unknowns(normal.stiffness(0), space.unknowns(component, component));
     const SparseMatrix mass_normal = over_unknowns(normal.mass(0), space.unknowns(component, component));
     const SparseMatrix along_tangential = over_unknowns(held, space.unknowns(component, across));
     const SparseMatrix mass_tangential = over_unknowns(tangential.mass(1), space.unknowns(component, across));
-    const SparseMatrix block = component == 0 ? SparseMatrix(kronecker(mass_tangential, along_normal) +
-                                                             kronecker(along_tangential, mass_normal))
-                                              : SparseMatrix(kronecker(along_normal, mass_tangential) +
-                                                             kronecker(mass_normal, along_tangential));
-    const auto first = static_cast<int>(component == 0 ? 0 : space.size(0));
-    for (int k = 0; k < block.outerSize(); ++k)
-      for (SparseMatrix::InnerIterator it(block, k); it; ++it)
-        entries.emplace_back(first + static_cast<int>(it.row()), first + static_cast<int>(it.col()),
-                             it.value());
+    blocks[static_cast<std::size_t>(component)] =
+        component == 0 ? SparseMatrix(kronecker(mass_tangential, along_normal) +
+                                      kronecker(along_tangential, mass_normal))
+                       : SparseMatrix(kronecker(along_normal, mass_tangential) +
+                                      kronecker(mass_normal, along_tangential));
   }
-  matrix_.setFromTriplets(entries.begin(), entries.end());
+  matrix_ = block_diagonal(blocks[0], blocks[1]);
 }
 
 VectorXd ViscousForm::wall_load(double t) const {

@@ -16,6 +16,10 @@ class ViscousForm {
   /// K for a viscosity of 1 m2/s [1].
   [[nodiscard]] const SparseMatrix& matrix() const { return matrix_; }
 
+  /// Of the velocity along the walls that end an axis, over all its functions of degree k - 1 there: its
+  /// stiffness with what walls add [1/m].
+  [[nodiscard]] const std::array<SparseMatrix, 2>& held() const { return held_; }
+
   /// What walls in motion at time t [s] add to the right side, for a viscosity of 1 m2/s [m/s].
   [[nodiscard]] VectorXd wall_load(double t) const;
 
@@ -27,6 +31,7 @@ class ViscousForm {
   };
   const VelocitySpace& space_;
   SparseMatrix matrix_;
+  std::array<SparseMatrix, 2> held_;
   std::vector<Wall> walls_;
 };
 

@@ -12,7 +12,7 @@ template <int K>
 class YieldViscosity final : public ShearViscosity<K> {
   using Base = ShearViscosity<K>;
   using typename Base::Block;
-  using typename Base::Site;
+  using typename Base::Slopes;
   using typename Base::State;
   using typename Base::Wall;
   using typename Viscosity::Solution;
@@ -20,7 +20,7 @@ class YieldViscosity final : public ShearViscosity<K> {
  public:
   YieldViscosity(const Scene& scene, const VelocitySpace& space, const SparseMatrix& mass,
                  const HerschelBulkley& fluid, const WallShares& shares = {})
-      : Base(scene, space, mass, flow_law(fluid, scene.fluid.density), shares), fluid_(fluid) {
+      : Base(scene, space, mass, FlowLaw(fluid, scene.fluid.density), shares), fluid_(fluid) {
     fluid_.consistency /= scene.fluid.density;
     fluid_.yield_stress /= scene.fluid.density;
   }
@@ -29,10 +29,10 @@ class YieldViscosity final : public ShearViscosity<K> {
     const SparseMatrix& mass = this->mass_;
     const auto norm = [&](const VectorXd& x) { return std::sqrt(std::max(0.0, x.dot(mass * x))); };
     VectorXd w = guess;
-    State place = this->state_of(w), flow = place;
+    State place = this->state_of(w, Slopes::Everywhere), flow = place;
     double last_change = std::numeric_limits<double>::infinity(), share = 1;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      this->factor_.compute(mass + a * this->tangent(place, w.size()));
+      this->factorise(a, place);
       if (this->factor_.info() != Eigen::Success) break;
       const VectorXd step =
           this->factor_.solve(load - mass * w - a * linearised_force(flow, place, w.size(), t));
@@ -70,33 +70,36 @@ class YieldViscosity final : public ShearViscosity<K> {
   }
 
   void move(State& place, const State& flow, double share) const {
-    double mean = 0;
-    for (Eigen::Index i = 0; i < flow.xy.size(); ++i) mean += rate(flow, i).squaredNorm();
-    const DualRate curve(fluid_, std::sqrt(mean / static_cast<double>(flow.xy.size())));
+    double square = 0;
+    for (Eigen::Index i = 0; i < flow.xy.size(); ++i) square += rate(flow, i).squaredNorm();
+    const auto count = (this->weight_.array() > 0).count() + static_cast<Eigen::Index>(this->walls_.size());
+    const DualRate curve(fluid_, std::sqrt(square / static_cast<double>(count)));
     for (Eigen::Index i = 0; i < flow.xy.size(); ++i) {
       const Eigen::Vector2d next =
           curve.moved<Eigen::Vector2d>(rate(place, i), place.nu[i], place.slope[i], rate(flow, i), share);
       place.xy[i] = 0.5 * next[0];
       place.shear[i] = next[1];
     }
-    const VectorXd q = 4 * place.xy.array().square() + place.shear.array().square();
-    this->law_(q, place.nu, place.slope);
+    this->find_law(place, Slopes::Everywhere);
   }
 
   /// As force(), of the stresses that the curves linearised at `place` give the flow; what walls take of the
   /// law is the place's.
-  [[nodiscard]] VectorXd linearised_force(const State& flow, const State& place, Eigen::Index size_of_w,
-                                          double t) const {
+  [[nodiscard]] [[gnu::flatten]] VectorXd linearised_force(const State& flow, const State& place,
+                                                           Eigen::Index size_of_w, double t) const {
     MatrixXd sum = MatrixXd::Zero(flow.psi.rows(), flow.psi.cols());
     const auto stress = [&](Eigen::Index n) -> Eigen::Vector2d {
       const Eigen::Vector2d at = rate(place, n), r = rate(flow, n);
       return place.nu[n] * r + (2 * place.slope[n] * at.dot(r - at)) * at;
     };
-    Eigen::Index n = 0;
-    for (const Site& s : this->inner_) {
-      const Eigen::Vector2d of = s.weight * stress(n++);
-      Base::at(sum, s) += 2 * of[0] * Base::xy_of(s) + of[1] * Base::shear_of(s);
+    VectorXd of_xy(this->inner_), of_shear(this->inner_);
+    for (Eigen::Index n = 0; n < this->inner_; ++n) {
+      const Eigen::Vector2d of = this->weight_[n] * stress(n);
+      of_xy[n] = 2 * of[0];
+      of_shear[n] = of[1];
     }
+    this->sites_->add_forces(of_xy.data(), of_shear.data(), sum.data());
+    Eigen::Index n = this->inner_;
     for (std::size_t i = 0; i < this->walls_.size(); ++i, ++n) {
       const Wall& s = this->walls_[i];
       const auto tangent = this->tangent_at(place, i);

@@ -2,7 +2,6 @@
 #include <numbers>
 
 #include "solver/incompressible/make_incompressible_solver.hpp"
-#include "solver/incompressible/particle_fit.hpp"
 #include "solver/incompressible/pressure.hpp"
 #include "solver/incompressible/pressure_field.hpp"
 #include "solver/incompressible/space/exact_mass.hpp"
@@ -114,26 +113,6 @@ TEST_CASE("the exact mass inverts itself, and weighs a uniform field", "[incompr
     CHECK((mass.matrix() * z - mass.times(z)).norm() < 1e-13 * z.norm());
     if (kind == Box::Periodic) CHECK(mass.times(VectorXd::Ones(space.size())).sum() == Approx(2 * 1.5));
   }
-}
-
-TEST_CASE("the fit gives back what the grid can carry, for any number of threads", "[incompressible]") {
-  const Scene scene = box(Box::Walls, 20);
-  const VelocitySpace space(scene, 3);
-  const ExactMass mass(space);
-  const VectorXd z = arbitrary(space.size());
-  const VelocityField field = space.extended(z);
-  const Particles particles = seed_particles(scene);
-  VectorField velocity;
-  for (const Vec2& x : particles.position) velocity.push_back(space.value(field, x));
-  std::vector<double> volume(particles.size(), 1.5 / static_cast<double>(particles.size()));
-  ThreadTeam one(1), three(3);
-  ParticleFit<3> fit(space, mass, 1e-5), again(space, mass, 1e-5);
-  const VectorXd fitted = fit.fitted(volume, particles.position, velocity, z, one);
-  CHECK((fitted - z).lpNorm<Eigen::Infinity>() < 1e-9);
-  CHECK(again.fitted(volume, particles.position, velocity, VectorXd::Zero(z.size()), three)
-            .isApprox(z, 1e-3));  // held to nothing by a hundred-thousandth
-  CHECK(again.fitted(volume, particles.position, velocity, z, three) == fitted);
-  CHECK(fit.occupancy() == std::pair{9, 9});
 }
 
 TEST_CASE("Stokes flow in a channel: the parabola stands, and its rise is of second order",

@@ -54,7 +54,7 @@ template <int K>
 void compare_with_newtonian(const Scene& scene) {
   const Setting s(scene, K);
   NewtonianViscosity newtonian(s.scene, s.space, s.basis, s.mass, 0.3);
-  ShearViscosity<K> general(s.scene, s.space, s.mass, flow_law(s.scene.fluid.rheology, 2));
+  ShearViscosity<K> general(s.scene, s.space, s.mass, FlowLaw(s.scene.fluid.rheology, 2));
   const VectorXd w = arbitrary(s.basis.cols()), expected = newtonian.force(w, 0);
   CHECK((general.force(w, 0) - expected).norm() < 1e-11 * expected.norm());
   const VectorXd load = s.mass * w;
@@ -84,7 +84,7 @@ TEST_CASE("the tangent of a viscosity that varies is the force's derivative wher
     Scene scene = box(false, false);
     scene.fluid.rheology = fluid;
     const Setting s(scene, 3);
-    const ShearViscosity<3> viscosity(s.scene, s.space, s.mass, flow_law(fluid, 2));
+    ShearViscosity<3> viscosity(s.scene, s.space, s.mass, FlowLaw(fluid, 2));
     const VectorXd w = arbitrary(s.basis.cols()), change = 1e-6 * arbitrary(s.basis.cols()).reverse();
     const VectorXd difference = viscosity.force(w + change, 0) - viscosity.force(w - change, 0);
     const VectorXd predicted = 2 * (viscosity.tangent(w) * change);
@@ -100,7 +100,7 @@ TEST_CASE("Newton's method solves for fluids that thin and thicken, from rest an
     Scene scene = box(true, true);
     scene.fluid.rheology = fluid;
     const Setting s(scene, 3);
-    ShearViscosity<3> viscosity(s.scene, s.space, s.mass, flow_law(fluid, 2));
+    ShearViscosity<3> viscosity(s.scene, s.space, s.mass, FlowLaw(fluid, 2));
     const VectorXd load = VectorXd::Zero(s.basis.cols());
     const auto solution = viscosity.solved(0.05, 0, load, load);
     REQUIRE(solution.converged);

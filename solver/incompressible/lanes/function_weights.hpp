@@ -1,0 +1,91 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "solver/incompressible/lanes/function_rows.hpp"
+
+namespace mpm::MPM_ISA {
+
+/// n functions of an axis at a point, one a lane, zeros behind the last.
+template <int n>
+struct FunctionWeights {
+  static constexpr int parts = (n + width - 1) / width, padded = parts * width;
+  Lanes part[parts];
+  [[nodiscard]] const double* of() const { return reinterpret_cast<const double*>(part); }
+};
+
+/// The polynomials that the n functions of an axis are in each cell, every distinct set once: away from walls
+/// all cells have the same.
+template <int n>
+class CellPolynomials {
+ public:
+  CellPolynomials(const double* polynomials, int cells) {
+    constexpr std::size_t padded = FunctionWeights<n>::padded, set = padded * n;
+    for (int cell = 0; cell < cells; ++cell) {
+      const double* const from = polynomials + static_cast<std::ptrdiff_t>(cell) * n * n;
+      std::size_t known = 0;
+      const auto same = [&] {
+        for (std::size_t m = 0; m < n; ++m)
+          if (!std::equal(from + m * n, from + (m + 1) * n, sets_.data() + known * set + m * padded))
+            return false;
+        return true;
+      };
+      while (known * set < sets_.size() && !same()) ++known;
+      if (known * set == sets_.size()) {
+        sets_.resize(sets_.size() + set, 0.0);
+        for (std::size_t m = 0; m < n; ++m)
+          std::copy_n(from + m * n, n, sets_.data() + known * set + m * padded);
+      }
+      of_cell_.push_back(static_cast<int>(known * set));
+    }
+  }
+
+  /// The functions of a cell at xi in [0, 1], by Horner's rule.
+  [[gnu::always_inline]] void at(int cell, double xi, FunctionWeights<n>& sum) const {
+    using W = FunctionWeights<n>;
+    const double* const powers = sets_.data() + of_cell_[static_cast<std::size_t>(cell)];
+    unroll<W::parts>([&](int p) { sum.part[p] = load(powers + p * width); });
+    unroll<n - 1>([&](int m) {
+      unroll<W::parts>(
+          [&](int p) { sum.part[p] = sum.part[p] * xi + load(powers + (m + 1) * W::padded + p * width); });
+    });
+  }
+
+ private:
+  std::vector<double> sets_;  // [set][power, the highest first][function]
+  std::vector<int> of_cell_;
+};
+
+/// The same for `width` neighbouring cells at once, a lane each: every function's coefficients.
+template <int n>
+class BlockPolynomials {
+ public:
+  BlockPolynomials(const double* polynomials, int cells) {
+    for (int first = 0; first < cells; first += width)
+      for (int k = 0; k < n * n; ++k) {
+        Lanes of_cells = 0;
+        for (int lane = 0; lane < std::min(width, cells - first); ++lane)
+          of_cells[lane] = polynomials[static_cast<std::ptrdiff_t>(first + lane) * n * n + k];
+        powers_.push_back(of_cells);
+      }
+  }
+
+  [[gnu::always_inline]] void at(int block, Lanes xi, Lanes (&sum)[n]) const {
+    const Lanes* const powers = powers_.data() + static_cast<std::ptrdiff_t>(block) * n * n;
+    unroll<n>([&](int k) { sum[k] = powers[k]; });
+    unroll<n - 1>([&](int m) { unroll<n>([&](int k) { sum[k] = sum[k] * xi + powers[(m + 1) * n + k]; }); });
+  }
+
+ private:
+  LargeArray<Lanes> powers_;
+};
+
+/// The functions of one cell for a lane of points each.
+template <int n>
+[[gnu::always_inline]] inline void functions_at(const double* powers, Lanes xi, Lanes (&sum)[n]) {
+  unroll<n>([&](int k) { sum[k] = powers[k]; });
+  unroll<n - 1>([&](int m) { unroll<n>([&](int k) { sum[k] = sum[k] * xi + powers[(m + 1) * n + k]; }); });
+}
+
+}  // namespace mpm::MPM_ISA
