@@ -49,6 +49,8 @@ void require_step(const Study& study, const std::filesystem::path& file) {
 
 /// Runs the pilot of a scene with dt = "auto".
 void choose_step(Study& study, const std::filesystem::path& file) {
+  // A cache, even one that is off, reads the whole program: as long as a short simulation takes.
+  if (!study.runs.front().scene.auto_step) return;
   std::vector<Study> one{study};
   RunCache none({}, CacheUse::Off);
   settle_and_say(one, none, 1);
