@@ -7,7 +7,8 @@ namespace mpm {
 // The explicit stepping rules of first order, each written once for either set of passes: Passes, whose loops
 // run over everything one after another, or LanePasses on the vector kernels. A step is a sequence of stages:
 // a stage finds the nodes complete to which the one before has added, so that LanePasses may visit the grid
-// with all of them a few rows apart (solver/kernel/threads/sweep.hpp). What stands in one call is one loop there.
+// with all of them a few rows apart (solver/kernel/threads/sweep.hpp). What stands in one call is one loop
+// there.
 
 /// Update stress first: strain rate from the velocity at the start of the step.
 template <class Passes>
