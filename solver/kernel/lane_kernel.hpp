@@ -313,13 +313,15 @@ class LaneKernel final : public Kernel {
   /// on is brought into the cache.
   template <Fetch fetch, class F>
   void each_slot(const Block& block, const Part& part, F&& f) {
-    constexpr std::size_t sixth = sizeof(Slot) / 6, end = (fetch.first + fetch.sixths) * sixth;
-    const std::ptrdiff_t ahead = part.ahead * bytes_a_cell_;
+    [[maybe_unused]] constexpr std::size_t sixth = sizeof(Slot) / 6,
+                                           end = (fetch.first + fetch.sixths) * sixth;
+    [[maybe_unused]] const std::ptrdiff_t ahead = part.ahead * bytes_a_cell_;
     with_weights(basis_, block, [&](const auto& weights) {
       for (int k = 0; Slot & p : cells_.slots(block)) {
-        if (fetch.sixths > 0 && ahead > 0)
-          for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
-            fetch_ahead(reinterpret_cast<const char*>(&p) + ahead + byte);
+        if constexpr (fetch.sixths > 0)
+          if (ahead > 0)
+            for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
+              fetch_ahead(reinterpret_cast<const char*>(&p) + ahead + byte);
         f(k++, p, weights(p.s));
       }
     });
