@@ -39,4 +39,12 @@ reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long
   return record;
 }
 
+RunData failed_run(const Study& study, const PlannedRun& plan, const std::string& why) {
+  RunData data;
+  data.plan = &plan;
+  data.record = describe_run(study, plan, 0, "failed: " + why);
+  data.timing.run = plan.run;
+  return data;
+}
+
 }  // namespace verification

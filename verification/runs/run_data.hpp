@@ -34,6 +34,9 @@ struct RunData {
 reports::RunRecord describe_run(const Study& study, const PlannedRun& plan, long steps,
                                 const std::string& status);
 
+/// A run that could not be simulated at all: recorded, so that the tables say so.
+RunData failed_run(const Study& study, const PlannedRun& plan, const std::string& why);
+
 /// What a study's runs amount to.
 struct StudyData {
   const Study* study = nullptr;

@@ -29,15 +29,6 @@
 namespace verification {
 namespace {
 
-/// A run that could not be simulated at all: recorded, so that the tables say so.
-RunData failed_run(const Study& study, const PlannedRun& plan, const std::string& why) {
-  RunData data;
-  data.plan = &plan;
-  data.record = describe_run(study, plan, 0, "failed: " + why);
-  data.timing.run = plan.run;
-  return data;
-}
-
 /// Keeps a part of a suite from passing for the whole.
 reports::CheckRecord unfinished(long done, long total) {
   return {"suite",

@@ -24,19 +24,11 @@ struct Open {
   PilotOutcome outcome = {};
 };
 
-RunData failed(const Study& study, const PlannedRun& plan, const std::string& why) {
-  RunData data;
-  data.plan = &plan;
-  data.record = describe_run(study, plan, 0, "failed: " + why);
-  data.timing.run = plan.run;
-  return data;
-}
-
 RunData run_pilot(const Study& study, const PlannedRun& plan, RunCache& cache) {
   throw_if_interrupted();
   if (auto kept = cache.load(study, plan)) return std::move(*kept);
   if (!cache.may_run()) {
-    if (const auto why = cache.failure(study, plan)) return failed(study, plan, *why);
+    if (const auto why = cache.failure(study, plan)) return failed_run(study, plan, *why);
     throw ConfigError(
         "pilot run " + plan.run +
         " is in none of the shards: the studies have changed since, or no shard ran to its end. "
@@ -52,7 +44,7 @@ RunData run_pilot(const Study& study, const PlannedRun& plan, RunCache& cache) {
     throw;
   } catch (const std::exception& error) {
     cache.save_failure(study, plan, error.what());
-    return failed(study, plan, error.what());
+    return failed_run(study, plan, error.what());
   }
 }
 
@@ -61,7 +53,10 @@ std::string line_of(const Study& study, const Open& open) {
   for (const reports::TimeStepRecord& step : open.outcome.steps)
     steps += fmt::format("{}{:.4g}{}", steps.empty() ? "" : ", ", step.dt,
                          step.bound == std::string("error") ? "" : " (" + step.bound + ")");
-  const auto& first = open.outcome.steps.front();
+  // The level that has no step says why.
+  const auto unsettled =
+      std::ranges::find(open.outcome.steps, reports::no_step, &reports::TimeStepRecord::bound);
+  const auto& first = unsettled == open.outcome.steps.end() ? open.outcome.steps.front() : *unsettled;
   const std::string who = study.name + (open.variant.empty() ? "" : ", " + open.variant);
   if (first.bound == reports::no_step) return fmt::format("{}: {}", who, first.remark);
   double work = 0;
@@ -112,11 +107,11 @@ void settle_steps(std::vector<Study>& studies, RunCache& cache, int threads,
 
 std::vector<reports::CheckRecord> unsettled_steps(const Study& study) {
   std::vector<reports::CheckRecord> checks;
-  for (const reports::TimeStepRecord& step : study.time_steps)
-    if (step.bound == reports::no_step &&
-        std::ranges::none_of(checks, [&](const auto& c) { return c.check.starts_with(step.variant + ": "); }))
-      checks.push_back(
-          {study.name, step.variant + ": time step by its error", nan, 0, 1, "1", "fail", step.remark});
+  for (const reports::TimeStepRecord& step : study.time_steps) {
+    const std::string name = (step.variant.empty() ? "" : step.variant + ": ") + "time step by its error";
+    if (step.bound == reports::no_step && std::ranges::count(checks, name, &reports::CheckRecord::check) == 0)
+      checks.push_back({study.name, name, nan, 0, 1, "1", "fail", step.remark});
+  }
   return checks;
 }
 
