@@ -117,7 +117,9 @@ std::vector<Cheapest> cheapest_runs(const Results& results) {
                           error_of(run, results, "grid", "l2", nan), timing->second->clock};
     for (std::size_t i = 0; i < error_targets.size(); ++i) {
       CostPoint& best = table->runs[i];
-      if (point.error <= error_targets[i] && (best.run == nullptr || point.wall < best.wall)) best = point;
+      if (point.error <= error_targets[i] && std::isfinite(point.wall) &&
+          (best.run == nullptr || point.wall < best.wall))
+        best = point;
     }
   }
   return tables;
