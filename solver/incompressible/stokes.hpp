@@ -11,7 +11,7 @@ namespace mpm::incompressible {
 /// Viscosity, walls and body forces under the constraint of incompressibility. Velocities are sought among
 /// the solenoidal ones alone, W = Z w, so that the pressure, whose gradient is orthogonal to them, drops out,
 /// and what is left is symmetric and positive definite; for a Newtonian fluid, Z^T (M + a nu K) Z, it is also
-/// the same at every step: factorised once.
+/// the same at every step of the same length: prepared once for each (SolenoidalFactor).
 class Stokes {
  public:
   Stokes(const Scene& scene, const VelocitySpace& space, const ExactMass& mass,

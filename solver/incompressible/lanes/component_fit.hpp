@@ -61,7 +61,7 @@ class ComponentFit {
     add_scaled(r, -1, product);
     double rz = precondition();
     p.copy(z);
-    for (int k = 0; k < most_iterations && rz > enough; ++k) {
+    for (int k = 0; k < most_iterations && !(rz <= enough); ++k) {
       multiply(matrix_, p);
       const double alpha = rz / dot(p, product);
       add_scaled(x, alpha, p);

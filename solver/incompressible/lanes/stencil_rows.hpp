@@ -22,9 +22,6 @@ class CellSums {
       unroll<pairs_x>([&](int p) { sum_[q * pairs_x + p] += across[q] * along[p]; });
   }
   [[nodiscard]] Lanes of(int pair_x, int pair_y) const { return sum_[pair_y * pairs_x + pair_x]; }
-  void clear() {
-    for (Lanes& sum : sum_) sum = 0;
-  }
 
   /// Number of a pair of n functions.
   template <int n>

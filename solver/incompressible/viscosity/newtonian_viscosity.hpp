@@ -8,7 +8,8 @@
 
 namespace mpm::incompressible {
 
-/// A constant viscosity: N(w) = nu Z^T (K Z w - walls), whose matrices are factorised once a run.
+/// A constant viscosity: N(w) = nu Z^T (K Z w - walls), whose matrices are prepared once for every a
+/// (SolenoidalFactor).
 class NewtonianViscosity final : public Viscosity {
  public:
   /// `nu`: kinematic viscosity [m2/s].

@@ -105,7 +105,7 @@ class YieldViscosity final : public ShearViscosity<K> {
       const auto tangent = this->tangent_at(place, i);
       const Block along = Base::along_of(s);
       const double missed =
-          Base::at(flow.psi, s).cwiseProduct(along).sum() - s.side->velocity(t)[1 - s.across];
+          Base::at(flow.psi, s).cwiseProduct(along).sum() - s.moves * s.side->velocity(t)[1 - s.across];
       if (s.side->slip_length > 0) {
         Base::at(sum, s) += s.weight * tangent.nu * s.holds * missed * along;
         continue;

@@ -252,12 +252,15 @@ VectorField under_smooth_lid(const Law& law) {
 
 TEST_CASE("a wall whose velocity varies along it moves the fluid so, Newtonian or not", "[incompressible]") {
   const VectorField newtonian = under_smooth_lid(Newtonian{0.02});
-  // The same fluid as a power law of index 1: the other text of the viscosity.
+  // The same fluid as a power law of index 1 and as one that yields to nothing: the other texts of the
+  // viscosity.
   const VectorField general = under_smooth_lid(PowerLaw{0.02, 1.0, 1e-6, 1});
+  const VectorField yielding = under_smooth_lid(HerschelBulkley{0.02, 1.0, 1e-12, 10, 1e-6, 1});
   const double x[] = {0.1, 0.3, 0.5, 0.8};
   for (std::size_t i = 0; i < newtonian.size(); ++i) {
     CHECK(newtonian[i].x() ==
           Approx(16 * std::pow(x[i] * (1 - x[i]), 2)).margin(0.044));  // held weakly: 0.022
     CHECK((newtonian[i] - general[i]).norm() < 1e-7);
+    CHECK((newtonian[i] - yielding[i]).norm() < 1e-7);
   }
 }

@@ -67,8 +67,24 @@ TEST_CASE("the modes of both lines solve what Cholesky's factor solves between f
     const VectorXd expected = Eigen::SimplicialLLT<SparseMatrix>(matrix).solve(load);
     const VectorXd found = SolenoidalFactor(space, matrix, Diffusion{a_nu, form.held()}).solve(load);
     CHECK((found - expected).norm() < 1e-9 * expected.norm());
+    // Conditions up to some 1e7 here, times round-off.
     CHECK((matrix * found - load).norm() < 1e-10 * load.norm());
   }
+}
+
+TEST_CASE("a load that is not a number has no solution between four walls", "[incompressible]") {
+  Scene scene = periodic_box(4, 3);
+  for (Side& side : scene.sides) side = Side::wall({0, 0});
+  const VelocitySpace space(scene, 3);
+  const SparseMatrix basis = space.solenoidal_basis();
+  const SparseMatrix reduced = (basis.transpose() * ExactMass(space).matrix() * basis).pruned();
+  const ViscousForm form(space, scene);
+  VectorXd load = arbitrary(basis.cols());
+  load[1] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(!SolenoidalFactor(space, reduced).solve(load).allFinite());
+  const SolenoidalFactor factor(space, reduced, Diffusion{0.1, form.held()});
+  CHECK(!factor.solve(load).allFinite());
+  CHECK(factor.solve(VectorXd::Zero(load.size())) == VectorXd::Zero(load.size()));
 }
 
 TEST_CASE("a matrix that is not positive definite is refused", "[incompressible]") {
