@@ -98,24 +98,25 @@ class FullMassPasses {
     std::array<std::vector<double>, 2> functions;
     const Fluid& fluid = scene_.fluid;
     const Axis &along = layout_.axis(0), &across = layout_.axis(1);
-    FullMassSetup setup{{Basis::degree,
-                         false,
-                         {line_of_cells(along, functions[0]), line_of_cells(across, functions[1])},
-                         fluid.rheology,
-                         needs_gradients(scene_),
-                         fluid.pressure,
-                         false,
-                         {{fluid.bulk_modulus, 1 / fluid.density}, 0},
-                         0,
-                         points.data(),
-                         points.size(),
-                         1},
-                        {line_mass(along, true), line_mass(across, true)},
-                        {line_mass(along, false), line_mass(across, false)},
-                        {},
-                        resets,
-                        negligible_mass,
-                        &team_};
+    FullMassSetup setup{
+        {Basis::degree,
+         false,
+         {line_of_cells(along, functions[0]), line_of_cells(across, functions[1])},
+         fluid.rheology,
+         needs_gradients(scene_),
+         fluid.pressure,
+         false,
+         {{fluid.bulk_modulus, 1 / fluid.density}, 0},
+         0,
+         points.data(),
+         points.size(),
+         1},
+        {line_mass(along, true), line_mass(across, true)},
+        resets ? std::array{line_mass(along, false), line_mass(across, false)} : std::array<LineMass, 2>{},
+        {},
+        resets,
+        negligible_mass,
+        &team_};
     for (int j = 0; j < across.count(); ++j)
       for (int i = 0; i < along.count(); ++i)
         if (walls_.is_wall(layout_.grid_index(i, j))) setup.wall_nodes.push_back(j * along.count() + i);

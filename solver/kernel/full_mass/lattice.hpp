@@ -32,7 +32,6 @@ class Lattice {
   }
 
   [[nodiscard]] int stride() const { return stride_; }
-  [[nodiscard]] int degree() const { return degree_; }
   /// Nodes along an axis that have a value of their own.
   [[nodiscard]] int count(int axis) const { return count_[static_cast<std::size_t>(axis)]; }
   /// Of a node that has a value of its own, the n-th of them.

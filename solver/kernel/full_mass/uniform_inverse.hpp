@@ -40,8 +40,9 @@ class UniformInverse {
     const int count = lattice_.count(0);
     const auto length = static_cast<std::size_t>(count + 2 * room_ + 2 * width);
     // With images around them. All rows before any sum: one that is read across vectors just written waits.
-    thread_local std::vector<double> padded;
-    padded.resize(2 * static_cast<std::size_t>(rows.end - rows.begin) * length);
+    // No part keeps what another simulation left there: taps of nothing read it, too, and 0 times NaN is NaN.
+    thread_local LargeArray<double> padded;
+    padded.assign(2 * static_cast<std::size_t>(rows.end - rows.begin) * length, 0);
     double* middle = padded.data() + room_;
     for (int row = rows.begin; row < rows.end; ++row)
       for (std::size_t c : {0, 1}) {

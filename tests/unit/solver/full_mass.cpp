@@ -10,10 +10,12 @@ using namespace kernel_comparison;
 
 TEST_CASE("vector kernels: the consistent mass in leapfrog steps, periodic and between walls") {
   const int walls = GENERATE(0, 1, 2);
-  // As short as a row of the cubic mass matrix; shorter ones, which are none of the kernel's.
+  // As short as a row of the cubic mass matrix, and shorter.
   const auto [nx, ny] = GENERATE(std::pair{7, 18}, std::pair{9, 7}, std::pair{3, 8});
   for (const Scheme::Basis basis : bases)
     for (const bool pressure : {true, false}) {
+      // Three periodic cells are none of the kernel's but for the linear basis.
+      if (nx == 3 && walls < 2 && basis != Scheme::Basis::Linear) continue;
       Scene scene = whirl(nx, ny);
       scene.particles_per_cell = {3, 3};
       scene.fluid.pressure = pressure;
