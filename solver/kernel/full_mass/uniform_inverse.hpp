@@ -40,15 +40,18 @@ class UniformInverse {
     const int count = lattice_.count(0);
     const auto length = static_cast<std::size_t>(count + 2 * room_ + 2 * width);
     // With images around them. All rows before any sum: one that is read across vectors just written waits.
-    // No part keeps what another simulation left there: taps of nothing read it, too, and 0 times NaN is NaN.
     thread_local LargeArray<double> padded;
-    padded.assign(2 * static_cast<std::size_t>(rows.end - rows.begin) * length, 0);
+    padded.resize(2 * static_cast<std::size_t>(rows.end - rows.begin) * length);
     double* middle = padded.data() + room_;
     for (int row = rows.begin; row < rows.end; ++row)
       for (std::size_t c : {0, 1}) {
         const int first = row * lattice_.stride();
         for (int i = 0; i < count; i += width)
           store(middle + i, load(scale + first + i) * load(r[c] + first + i));
+        // Taps that are zero read a little more than the images, and of short rows the images do, too. No
+        // other simulation may have left that there: 0 times NaN is NaN.
+        store(middle - width, 0);
+        store(middle + count + room_, 0);
         // Whole vectors, of which what is within reach is read.
         for (int k = 0; k < room_; k += width) {
           store(middle - room_ + k, lattice_.periodic(0) ? load(middle + count - room_ + k) : 0);
