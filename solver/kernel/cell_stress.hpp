@@ -3,7 +3,7 @@
 #include <span>
 #include <variant>
 
-#include "solver/kernel/cells.hpp"
+#include "solver/kernel/cells/cells.hpp"
 
 namespace mpm::MPM_ISA {
 

@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "solver/kernel/cells.hpp"
+#include "solver/kernel/cells/cells.hpp"
 
 namespace mpm::MPM_ISA {
 

@@ -100,7 +100,8 @@ struct KernelSetup {
   bool strip;  ///< one periodic cell across the lanes, in which nothing varies
   std::array<LineOfCells, 2> axis;
   Rheology rheology;
-  bool is_affine;  ///< particles carry an affine field (APIC)
+  bool is_affine;     ///< particles carry an affine field (APIC)
+  bool keeps_stress;  ///< from one step to the next
   bool has_pressure;
   bool has_cell_pressure;  ///< one density a cell
   CellTaitPressure pressure;

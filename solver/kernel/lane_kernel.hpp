@@ -125,7 +125,7 @@ class LaneKernel final : public Kernel {
   /// What belongs to a share of the cells alone, so that threads need not agree.
   struct alignas(64) Share {
     Lanes energy = 0, least_volume = 0;  // that its particles were found to have
-    std::vector<Address> left;           // particles no longer in their cells
+    std::vector<Mover> left;             // particles no longer in their cells
     std::vector<Strained> strained;      // of one block at a time
     std::vector<Stress> stress;          // the same
   };
@@ -283,7 +283,7 @@ class LaneKernel final : public Kernel {
       else
         each_slot<fetch_by_g2p>(block, part, take, move);
       share.energy += energy;
-      if (((lowest < 0) | (highest >= 1)).any()) cells_.list_movers(block, share.left);
+      if (((lowest < 0) | (highest >= 1)).any()) cells_.take_out_movers(block, share.left);
     });
   }
 

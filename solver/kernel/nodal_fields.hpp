@@ -4,7 +4,7 @@
 #include <array>
 
 #include "solver/kernel/cell_weights.hpp"
-#include "solver/kernel/storage.hpp"
+#include "solver/kernel/cells/storage.hpp"
 
 namespace mpm::MPM_ISA {
 

@@ -104,6 +104,7 @@ class FullMassPasses {
          {line_of_cells(along, functions[0]), line_of_cells(across, functions[1])},
          fluid.rheology,
          needs_gradients(scene_),
+         true,
          fluid.pressure,
          false,
          {{fluid.bulk_modulus, 1 / fluid.density}, 0},

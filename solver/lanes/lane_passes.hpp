@@ -176,6 +176,7 @@ class LanePasses {
                       {},
                       fluid.rheology,
                       is_affine_,
+                      stepping_ != Scheme::Stepping::Usf,
                       fluid.pressure,
                       dilatation_ == Scheme::Dilatation::Cell,
                       {{fluid.bulk_modulus, 1 / fluid.density}, scene_.least_density()},

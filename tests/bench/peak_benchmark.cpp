@@ -6,7 +6,7 @@
 #include <vector>
 
 #define MPM_ISA peak
-#include "solver/kernel/storage.hpp"
+#include "solver/kernel/cells/storage.hpp"
 
 // What this machine can do at best, measured in the same run as the solver: multiply-adds in registers, and
 // bytes streamed through memory that no cache holds, on pages as large as the solver's.

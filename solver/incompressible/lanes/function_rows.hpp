@@ -5,7 +5,7 @@
 
 #include "solver/incompressible/lanes/plane_kernel.hpp"
 #include "solver/kernel/lanes.hpp"
-#include "solver/kernel/storage.hpp"
+#include "solver/kernel/cells/storage.hpp"
 
 namespace mpm::MPM_ISA {
 

@@ -4,7 +4,7 @@
 
 #include "solver/incompressible/lanes/site_kernel.hpp"
 #include "solver/kernel/lanes.hpp"
-#include "solver/kernel/storage.hpp"
+#include "solver/kernel/cells/storage.hpp"
 
 namespace mpm::MPM_ISA {
 

@@ -146,7 +146,7 @@ class LaneFullMass final : public FullMassKernel {
             energy += p.v[c] * p.v[c];
           }
         }
-        if (((lowest < 0) | (highest >= 1)).any()) particles_.cells().list_movers(block, share.movers);
+        if (((lowest < 0) | (highest >= 1)).any()) particles_.cells().take_out_movers(block, share.movers);
       });
       share.energy = sum(energy);
       share.dense = !(least_volume < 0).any();
@@ -206,7 +206,7 @@ class LaneFullMass final : public FullMassKernel {
   struct alignas(64) Share {
     double energy = 0, strain_rate_squared = 0;
     bool dense = true;
-    std::vector<Address> movers;
+    std::vector<Mover> movers;
   };
 
   /// Mass, its matrix and momentum of the particles, complete for a solve.

@@ -1,13 +1,15 @@
 #include "solver/kernel/threads/thread_team.hpp"
 
 #include <system_error>
+#include <thread>
 
 namespace mpm {
 namespace {
 
-/// Loops follow each other within microseconds, and it takes tens of them to wake a thread that sleeps: so
-/// many looks before it goes to sleep.
-constexpr int looks = 2000;
+/// Loops follow each other within microseconds, or when one thread has done what it does alone between two
+/// steps, tens of microseconds: less than it takes to wake a thread that sleeps. So many looks before a
+/// thread lets others have its core, so many times (some tenths of a millisecond) before it goes to sleep.
+constexpr int looks = 2000, yields = 2000;
 
 void pause() {
 #if defined(__x86_64__)
@@ -21,6 +23,10 @@ void wait_while(const std::atomic<Number>& value, Number old) {
   for (int look = 0; look < looks; ++look) {
     if (value != old) return;
     pause();
+  }
+  for (int look = 0; look < yields; ++look) {
+    if (value != old) return;
+    std::this_thread::yield();
   }
   value.wait(old);
 }

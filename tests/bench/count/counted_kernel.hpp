@@ -50,6 +50,7 @@ inline mpm::KernelSetup setup_of(const CountedScene& scene, std::vector<double> 
                    mpm::line_of_cells(scene.axis(1), functions[1])},
           .rheology = mpm::Newtonian{scene.viscosity},
           .is_affine = scene.is_affine,
+          .keeps_stress = false,
           .has_pressure = true,
           .has_cell_pressure = false,
           .pressure = {{scene.bulk_modulus, 1 / scene.density}, 0},

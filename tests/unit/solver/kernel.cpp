@@ -139,6 +139,7 @@ TEST_CASE("a part of a sweep without cells touches no node: it may be another th
                                    .axis = {axis, axis},
                                    .rheology = Newtonian{1},
                                    .is_affine = false,
+                                   .keeps_stress = false,
                                    .has_pressure = true,
                                    .has_cell_pressure = false,
                                    .pressure = {{1, 1}, 0},
