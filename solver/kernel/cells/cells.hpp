@@ -229,7 +229,8 @@ class Cells {
 
   /// Moves a block to the end of the store with room to spare; when the end is reached, everything moves.
   [[gnu::noinline]] void grow(Block& block) {
-    block.capacity = 2 * std::max(1, block.capacity);
+    // Not twice: what is reserved and not used lies between what is, and memory brings it along.
+    block.capacity += std::max(2, block.capacity / 2);
     most_slots_ = std::max(most_slots_, static_cast<std::size_t>(block.capacity));
     if (end_ + static_cast<std::size_t>(block.capacity) > store_.size()) return store_anew();
     store_.copy(store_, block.first_slot, size_of(block), end_);
