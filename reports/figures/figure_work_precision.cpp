@@ -155,7 +155,7 @@ Figure work_precision_figure(const FigureRecord& record, const Results& results)
       location == "grid" ? "the grid nodes" : "the " + location,
       !by_wall ? "particles times steps"
       : repetitions > 1
-          ? fmt::format("the time of the whole run, the fastest of {} repetitions after a warm-up, "
+          ? fmt::format("the time of the whole run, the fastest of up to {} repetitions after a warm-up, "
                         "with no other run beside it",
                         repetitions)
           : "the time of the whole run, measured once while other runs shared the machine");

@@ -93,11 +93,15 @@ std::string csv_text(const std::tuple<Column<Record, T>...>& columns, const std:
   return content;
 }
 
-/// Write csv_text(), whole or not at all. @throws IoError
+/// Write csv_text(), whole or not at all; unsynced only where the file holds something else (keep_file): a
+/// file system flushes what replaces another. @throws IoError
 template <class Record, class... T>
 void write_csv(const std::filesystem::path& path, const std::tuple<Column<Record, T>...>& columns,
                const std::vector<Record>& records, Durability durability = Durability::Synced) {
-  write_file(path, csv_text(columns, records), durability);
+  if (durability == Durability::Unsynced)
+    keep_file(path, csv_text(columns, records));
+  else
+    write_file(path, csv_text(columns, records));
 }
 
 /// Read every record of a loaded text, perhaps cut, of the file `path`. Columns may come in any order and

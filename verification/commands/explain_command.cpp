@@ -84,7 +84,8 @@ int explain_command(const ExplainOptions& options) {
   say("variants    {}\n", joined(study.variants));
   const std::size_t jobs = study.runs.size() + study.stability.cases.size();
   say("costs       {} runs{}, {:.3g} particle-steps, about {:.1f} s on one core\n", jobs,
-      study.repetitions > 0 ? fmt::format(", each timed {} times after a warm-up", study.repetitions) : "",
+      study.repetitions > 0 ? fmt::format(", each timed up to {} times after a warm-up", study.repetitions)
+                            : "",
       study.particle_steps(), study.particle_steps() * (study.repetitions + 1) / particle_steps_per_second);
   say("\nchecks, and why those bounds:\n");
   for (const CheckSpec& check : study.checks) {

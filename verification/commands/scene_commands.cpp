@@ -80,7 +80,7 @@ void write_interchange(const std::filesystem::path& out, const RunData& data) {
   for (const reports::ProfileRow& row : data.profile)
     if (row.location != "exact")
       text += fmt::format("{},{},{},{},{},{}\n", row.t, row.location, row.x, row.y, row.u, row.v);
-  reports::write_file(out / "profile.csv", text, unsynced);
+  reports::keep_file(out / "profile.csv", text);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "reference/compressible/tait_column.hpp"
 #include "solver/incompressible/make_incompressible_solver.hpp"
@@ -246,22 +247,34 @@ RunData simulate(const Study& study, const PlannedRun& plan, const mpm::Scene& s
   return data;
 }
 
-/// Fastest of the timed repetitions, and how far their median lies above it. The first simulation, which
-/// `timing` holds, was the warm-up.
+/// Fastest of the timed repetitions, and how far their median lies above it. `timing` holds the first
+/// simulation.
 void repeat_timing(const Study& study, const PlannedRun& plan, const mpm::Scene& started,
                    const ExactField* exact, reports::TimingRecord& timing) {
   std::vector<double> walls;
-  for (int i = 0; i < study.repetitions; ++i)
+  if (warms_itself(timing.wall_s)) walls.push_back(timing.wall_s);
+  while (wants_repetition(study.repetitions, walls))
     walls.push_back(simulate(study, plan, started, exact).timing.wall_s);
   std::ranges::sort(walls);
   const double fastest = walls.front();
   timing.particle_steps_per_s *= timing.wall_s / fastest;
   timing.wall_s = fastest;
-  timing.repetitions = study.repetitions;
+  timing.repetitions = static_cast<long>(walls.size());
   if (walls.size() > 1) timing.spread = (walls[walls.size() / 2] - fastest) / fastest;
 }
 
 }  // namespace
+
+bool warms_itself(double wall) {
+  return wall >= 0.05;
+}
+
+bool wants_repetition(int asked, const std::vector<double>& walls) {
+  constexpr double enough = 0.25;
+  if (walls.empty()) return true;
+  if (walls.size() >= static_cast<std::size_t>(asked)) return false;
+  return walls.size() < 2 || std::accumulate(walls.begin(), walls.end(), 0.0) < enough;
+}
 
 RunData run_simulation(const Study& study, const PlannedRun& plan) {
   const SceneConfig& scene = plan.scene;

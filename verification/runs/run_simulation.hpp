@@ -9,6 +9,15 @@ namespace verification {
 /// Interrupted when a signal has come (interruption.hpp).
 RunData run_simulation(const Study& study, const PlannedRun& plan);
 
+/// Whether a simulation of so many seconds counts as its own warm-up: cold caches and pages cost it some
+/// milliseconds, less than the 5 % below which two times are not told apart.
+bool warms_itself(double wall);
+
+/// Whether a run is to be timed again after these times [s], `asked` times at most: no more than twice, whose
+/// difference shows the noise, once a quarter of a second has been measured. What disturbs a run comes in
+/// bursts of milliseconds; a long one averages over them.
+bool wants_repetition(int asked, const std::vector<double>& walls);
+
 /// The reference that a run needs and that takes long to compute (Flow::costly_reference).
 std::optional<CostlyReference> costly_reference(const Study& study, const SceneConfig& scene);
 

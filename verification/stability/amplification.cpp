@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <array>
 #include <numbers>
 
 #include "verification/config/config_error.hpp"
@@ -28,7 +29,10 @@ class WaveStep {
         step_(step),
         full_mass_(scheme.transfer == Scheme::Transfer::FullMass),
         keeps_(scheme.transfer == Scheme::Transfer::Flip || scheme.transfer == Scheme::Transfer::FlipBlend),
-        mass_(full_mass_ ? symbols.consistent_mass : 1) {}
+        mass_(full_mass_ ? symbols.consistent_mass : 1) {
+    if (scheme.stepping == Scheme::Stepping::ImplicitEuler) factorise(1);
+    if (scheme.stepping == Scheme::Stepping::ImplicitSdirk2) factorise(gamma);
+  }
 
   [[nodiscard]] WaveState operator()(const WaveState& old) const {
     switch (scheme_.stepping) {
@@ -48,6 +52,8 @@ class WaveStep {
   }
 
  private:
+  static constexpr double gamma = 1 - 0.5 * std::numbers::sqrt2;  // of SDIRK2
+
   [[nodiscard]] Vector viscous(const Vector& u) const { return -step_.r * (symbols_.viscous * u); }
   [[nodiscard]] Vector pressure(const Vector& q) const { return step_.cfl * step_.cfl * q; }
   [[nodiscard]] Vector compressed(const Vector& q, const Vector& u, double dt) const {
@@ -103,10 +109,12 @@ class WaveStep {
     return next;
   }
 
-  /// M (v - start) = dt (force - nu K v)
+  void factorise(double dt) {
+    factors_.compute(mass_ * Eigen::Matrix2cd::Identity() + dt * step_.r * symbols_.viscous);
+  }
+  /// M (v - start) = dt (force - nu K v), for the dt of the factors.
   [[nodiscard]] Vector implicit(const Vector& start, const Vector& force, double dt) const {
-    const Eigen::Matrix2cd matrix = mass_ * Eigen::Matrix2cd::Identity() + dt * step_.r * symbols_.viscous;
-    return matrix.fullPivLu().solve(mass_ * start + dt * force);
+    return factors_.solve(mass_ * start + dt * force);
   }
 
   [[nodiscard]] WaveState implicit_euler(const WaveState& old) const {
@@ -117,7 +125,6 @@ class WaveStep {
   }
 
   [[nodiscard]] WaveState implicit_sdirk2(const WaveState& old) const {
-    constexpr double gamma = 1 - 0.5 * std::numbers::sqrt2;
     WaveState next;
     const Vector q = compressed(old.q, old.u, 0.5);
     const Vector first = implicit(old.u, pressure(q), gamma);
@@ -133,6 +140,7 @@ class WaveStep {
   StepSize step_;
   bool full_mass_, keeps_;
   double mass_;
+  Eigen::FullPivLU<Eigen::Matrix2cd> factors_;  // of the implicit steppings
 };
 
 }  // namespace
@@ -154,19 +162,20 @@ Waves waves_named(const std::string& text) {
   throw ConfigError("waves '" + text + "' are not known; choose of: shear, longitudinal, plane");
 }
 
-Eigen::MatrixXcd amplification_matrix(const Scheme& scheme, const BlochSymbols& symbols, Waves waves,
-                                      const StepSize& step) {
+Amplification amplification_matrix(const Scheme& scheme, const BlochSymbols& symbols, Waves waves,
+                                   const StepSize& step) {
   const int first = waves == Waves::Longitudinal ? 1 : 0, last = waves == Waves::Shear ? 0 : 1;
   const bool carries_stress =
       step.r > 0 && (scheme.stepping == Scheme::Stepping::Usl || scheme.stepping == Scheme::Stepping::Musl);
-  std::vector<Vector WaveState::*> fields = {&WaveState::u};
-  if (step.cfl > 0) fields.push_back(&WaveState::q);
-  if (carries_stress) fields.push_back(&WaveState::s);
+  std::array<Vector WaveState::*, 3> fields{&WaveState::u};
+  std::size_t count = 1;
+  if (step.cfl > 0) fields[count++] = &WaveState::q;
+  if (carries_stress) fields[count++] = &WaveState::s;
 
   const WaveStep advance(scheme, symbols, step);
   const int per_field = last - first + 1;
-  const auto size = static_cast<Eigen::Index>(fields.size()) * per_field;
-  Eigen::MatrixXcd matrix(size, size);
+  const auto size = static_cast<Eigen::Index>(count) * per_field;
+  Amplification matrix(size, size);
   for (Eigen::Index column = 0; column < size; ++column) {
     WaveState unit;
     (unit.*fields[static_cast<std::size_t>(column / per_field)])[first + column % per_field] = 1;
@@ -178,9 +187,9 @@ Eigen::MatrixXcd amplification_matrix(const Scheme& scheme, const BlochSymbols& 
   return matrix;
 }
 
-double spectral_radius(const Eigen::MatrixXcd& matrix) {
+double spectral_radius(const Amplification& matrix) {
   if (!matrix.allFinite()) return std::numeric_limits<double>::infinity();
-  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
+  return Eigen::ComplexEigenSolver<Amplification>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
 }  // namespace verification

@@ -78,12 +78,17 @@ BlochSymbols bloch_symbols(mpm::Scheme::Basis basis, const ParticleLattice& latt
                            const std::array<double, 2>& theta) {
   const int degree = 1 + static_cast<int>(basis);
   BlochSymbols symbols{0, 0, 0, Eigen::Matrix2cd::Zero(), Eigen::Matrix2cd::Zero()};
-  const auto along_y = seats(lattice.per_cell[1], lattice.gauss, lattice.offset[1]);
+  struct Row {
+    double weight;
+    AxisSums sums;
+  };
+  std::vector<Row> along_y;
+  for (const Seat& seat : seats(lattice.per_cell[1], lattice.gauss, lattice.offset[1]))
+    along_y.push_back({seat.weight, axis_sums(degree, seat.position, theta[1])});
   for (const Seat& seat_x : seats(lattice.per_cell[0], lattice.gauss, lattice.offset[0])) {
     const AxisSums x = axis_sums(degree, seat_x.position, theta[0]);
-    for (const Seat& seat_y : along_y) {
-      const AxisSums y = axis_sums(degree, seat_y.position, theta[1]);
-      const double mass = seat_x.weight * seat_y.weight;  // and volume, the density being one
+    for (const auto& [weight_y, y] : along_y) {
+      const double mass = seat_x.weight * weight_y;  // and volume, the density being one
       const Complex n = x.value * y.value;
       const Eigen::Vector2cd g(x.slope * y.value, x.value * y.slope);
       symbols.consistent_mass += mass * std::norm(n);

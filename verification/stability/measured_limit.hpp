@@ -24,8 +24,10 @@ bool perturbation_grows(const MeasuringPlan& plan, double multiple);
 /// the spectral radius, seen on the solver. NaN when it does not grow to that within the plan's steps.
 double measured_growth(const MeasuringPlan& plan, double multiple);
 
-/// Largest stable multiple of the ray, by bisection to 0.2 %, and nothing when `largest` is stable.
-std::optional<double> measure_limit(const MeasuringPlan& plan, double largest);
+/// Largest stable multiple of the ray, by bisection to 0.2 %, and nothing when `largest` is stable. It is
+/// looked for around `expected` first, and below `largest` where it is not there.
+std::optional<double> measure_limit(const MeasuringPlan& plan, double largest,
+                                    std::optional<double> expected = std::nullopt);
 
 /// Steps that make an overshoot of 1 % unmistakable: the least stable wave grows by exp(12) meanwhile, as far
 /// as that takes at most 8000 steps.

@@ -202,7 +202,7 @@ std::vector<reports::StabilityRecord> measure_case(const std::string& study, con
     reports::StabilityRecord record = record_of(study, problem, one, predicted);
     record.kind = "measured";
     record.steps = measuring.steps;
-    if (const auto measured = measure_limit(measuring, largest_multiple)) {
+    if (const auto measured = measure_limit(measuring, largest_multiple, predicted.multiple)) {
       const StepSize limit = problem.at(*measured);
       record.r_measured = limit.r;
       record.cfl_measured = limit.cfl;

@@ -121,8 +121,8 @@ struct Study {
   std::optional<ForeignSolver> solver;
   Ladder ladder;
   bool matrix = false;  ///< its variants are a [matrix] of schemes
-  /// Times that each run is simulated to measure what it costs, after a warm-up and with nothing else
-  /// running; 0: cost is not the point, and runs share the machine.
+  /// Times that each run is simulated, at most (wants_repetition), to measure what it costs, warmed up and
+  /// with nothing else running; 0: cost is not the point, and runs share the machine.
   int repetitions = 0;
   std::vector<std::string> variants;
   std::vector<PlannedRun> runs;  ///< variant by variant, coarse to fine

@@ -116,7 +116,7 @@ TEST_CASE("the diagram has a panel a time and one for the largest, and crosses f
   for (const char* part : {"t = 0.1 s", "t = 1 s", "largest of all output times", "front of the best",
                            "set multiplot layout 1,3", "wall time of a run [s]", "failed: diverged"})
     CHECK_THAT(wall.script, contains(part));
-  CHECK_THAT(wall.caption, contains("fastest of 3 repetitions"));
+  CHECK_THAT(wall.caption, contains("fastest of up to 3 repetitions"));
   record.across = "particle-steps";
   CHECK_THAT(work_precision_figure(record, r).script, contains("particle-steps [-]"));
 }

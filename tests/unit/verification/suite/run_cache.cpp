@@ -204,6 +204,19 @@ TEST_CASE("runs are taken longest first, timed ones alone at the end") {
   CHECK(std::isnan(run_simulation(studies[1], studies[1].runs.front()).timing.spread));
 }
 
+TEST_CASE("a long run is its own warm-up, and is timed twice at most") {
+  CHECK_FALSE(warms_itself(0.049));
+  CHECK(warms_itself(0.05));
+  CHECK(wants_repetition(1, {}));
+  CHECK_FALSE(wants_repetition(1, {0.001}));
+  CHECK(wants_repetition(3, {0.01, 0.01}));
+  CHECK_FALSE(wants_repetition(3, {0.01, 0.01, 0.01}));
+  CHECK(wants_repetition(5, {3}));
+  CHECK_FALSE(wants_repetition(5, {3, 3}));
+  CHECK(wants_repetition(5, {0.08, 0.08, 0.08}));
+  CHECK_FALSE(wants_repetition(5, {0.09, 0.09, 0.09}));
+}
+
 TEST_CASE("a reference that takes long is computed once, before all runs") {
   const ScratchDirectory scratch;
   const std::string cross =
