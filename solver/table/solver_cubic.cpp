@@ -6,4 +6,8 @@ std::unique_ptr<Simulation> make_cubic_solver(const Scene& scene, const Scheme& 
   return make_solver_of_degree<3>(scene, scheme, threads);
 }
 
+std::unique_ptr<Simulation> make_cubic_general_solver(const Scene& scene, const Scheme& scheme) {
+  return make_general_solver_on<BSpline<3>>(scene, scheme);
+}
+
 }  // namespace mpm

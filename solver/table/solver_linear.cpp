@@ -6,4 +6,8 @@ std::unique_ptr<Simulation> make_linear_solver(const Scene& scene, const Scheme&
   return make_solver_of_degree<1>(scene, scheme, threads);
 }
 
+std::unique_ptr<Simulation> make_linear_general_solver(const Scene& scene, const Scheme& scheme) {
+  return make_general_solver_on<BSpline<1>>(scene, scheme);
+}
+
 }  // namespace mpm

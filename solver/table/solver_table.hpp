@@ -7,18 +7,9 @@
 
 namespace mpm {
 
-/// Every transfer on one basis: on the vector kernels where they cover it.
+/// Every transfer on one basis, particle by particle.
 template <class Basis>
-std::unique_ptr<Simulation> make_solver_on(const Scene& scene, const Scheme& scheme, int threads) {
-  if (lanes_cover(scene, scheme)) {
-    const double flip = scheme.transfer == Scheme::Transfer::Flip        ? 1
-                        : scheme.transfer == Scheme::Transfer::FlipBlend ? scheme.flip_fraction
-                                                                         : 0;
-    return std::make_unique<LaneSolver<Basis>>(scene, scheme, flip, threads);
-  }
-  if constexpr (Basis::X::support == Basis::Y::support)  // a plane
-    if (full_mass_lanes_cover<Basis>(scene, scheme))
-      return std::make_unique<FullMassSolver<Basis>>(scene, scheme, threads);
+std::unique_ptr<Simulation> make_general_solver_on(const Scene& scene, const Scheme& scheme) {
   const auto make = [&]<class Transfer>(const Transfer& transfer) -> std::unique_ptr<Simulation> {
     return std::make_unique<Solver<Basis, Transfer>>(scene, scheme, transfer);
   };
@@ -35,6 +26,21 @@ std::unique_ptr<Simulation> make_solver_on(const Scene& scene, const Scheme& sch
       return make(FullMass{});
   }
   throw SceneError("a transfer has no solver");
+}
+
+/// On the vector kernels where they cover scene and scheme.
+template <class Basis>
+std::unique_ptr<Simulation> make_solver_on(const Scene& scene, const Scheme& scheme, int threads) {
+  if (lanes_cover(scene, scheme)) {
+    const double flip = scheme.transfer == Scheme::Transfer::Flip        ? 1
+                        : scheme.transfer == Scheme::Transfer::FlipBlend ? scheme.flip_fraction
+                                                                         : 0;
+    return std::make_unique<LaneSolver<Basis>>(scene, scheme, flip, threads);
+  }
+  if constexpr (Basis::X::support == Basis::Y::support)  // a plane
+    if (full_mass_lanes_cover<Basis>(scene, scheme))
+      return std::make_unique<FullMassSolver<Basis>>(scene, scheme, threads);
+  return make_general_solver_on<Basis>(scene, scheme);
 }
 
 /// B-splines of one degree: on the strip where the scene is one periodic cell wide, in two dimensions

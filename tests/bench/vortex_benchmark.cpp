@@ -2,7 +2,7 @@
 
 #include "solver/incompressible/make_incompressible_solver.hpp"
 #include "solver/kernel/isa.hpp"
-#include "solver/step/solver.hpp"
+#include "solver/table/make_solver.hpp"
 #include "tests/bench/vortices.hpp"
 
 // Rates of a step of the schemes that are accurate in two dimensions: Taylor-Green vortices in a periodic
@@ -68,13 +68,11 @@ void vortex(benchmark::State& state, const mpm::Scheme& scheme) {
       bench::sonic_step(cells));
 }
 
-template <class Basis, class Transfer>
 void general_vortex(benchmark::State& state, const mpm::Scheme& scheme) {
   const auto cells = static_cast<int>(state.range(0));
   const mpm::Scene scene = vortices(cells);
   steps(
-      state, [&] { return std::make_unique<mpm::Solver<Basis, Transfer>>(scene, scheme, Transfer{}); },
-      bench::sonic_step(cells));
+      state, [&] { return mpm::make_general_solver(scene, scheme); }, bench::sonic_step(cells));
 }
 
 template <class Loop>
@@ -119,10 +117,10 @@ const mpm::Scheme full_mass{B::Cubic, T::FullMass, S::Leapfrog}, apic{B::Quadrat
     sdirk2{B::Cubic, T::FullMass, S::ImplicitSdirk2};
 
 void general_full_mass(benchmark::State& state) {
-  general_vortex<mpm::CubicBasis, mpm::FullMass>(state, full_mass);
+  general_vortex(state, full_mass);
 }
 void general_apic(benchmark::State& state) {
-  general_vortex<mpm::QuadraticBasis, mpm::Apic>(state, apic);
+  general_vortex(state, apic);
 }
 
 void plain_full_mass(benchmark::State& state) {

@@ -113,16 +113,8 @@ class LaneFullMass final : public FullMassKernel {
   }
 
   void set_stress() override {
-    particles_.with_fluid([&](const auto& law, const auto& pressure) {
-      bands_.each_of_cells([&](int, Rows rows) {
-        particles_.each_block(rows, [&](const Block& block) {
-          const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, velocity());
-          particles_.each_slot(block, [&](int k, const Slot& p, const Weights& n_p) {
-            set_stress(block, k, stress_at(p, n_p, grad_v, law, pressure));
-          });
-        });
-      });
-    });
+    bands_.each_of_cells(
+        [&](int, Rows rows) { particles_.each_block(rows, [&](const Block& block) { set_stress(block); }); });
   }
 
   Motion drift(double dt) override {
@@ -236,17 +228,27 @@ class LaneFullMass final : public FullMassKernel {
   /// m_i b + sum_p N_ip m_p b_p - sum_p V_p sigma_p grad N_ip, stress and all as in LaneKernel.
   void sum_forces(const double b[2]) {
     bands_.each_of_cells([&](int band, Rows cells) { right_side_.clear(lattice_, nodes_of(band, cells)); });
-    particles_.with_fluid([&](const auto& law, const auto& pressure) {
-      particles_.template scatter<DivergenceSums<Basis>>(
-          {right_side_[0], right_side_[1]}, [&](const Block& block, auto& sums) {
-            const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, velocity());
-            particles_.each_slot(block, [&](int k, const Slot& p, const Weights& n_p) {
-              const Stress stress = stress_at(p, n_p, grad_v, law, pressure);
-              set_stress(block, k, stress);
-              sums.add(n_p, (0 - p.volume) * stress);
-            });
-          });
+    // A Newtonian stress is a few products: written out, it saves a second loop over the slots.
+    const bool is_summed = particles_.with_newtonian([&](const auto& law, const auto& pressure) {
+      scatter_forces([&](const Block& block, auto& sums) {
+        const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, velocity());
+        particles_.each_slot(block, [&](int k, const Slot& p, const Weights& n_p) {
+          Strained strained = strained_at(n_p, grad_v);
+          if (pressure.varies) strained.density = density_of(p);
+          const Stress stress = stress_of(strained, law, pressure, 1);
+          particles_.cells().stresses(block)[static_cast<std::size_t>(k)] = stress;
+          sums.add(n_p, (0 - p.volume) * stress);
+        });
+      });
     });
+    if (!is_summed)
+      scatter_forces([&](const Block& block, auto& sums) {
+        set_stress(block);
+        const Stress* const stress = particles_.cells().stresses(block).data();
+        particles_.each_slot(block, [&](int k, const Slot& p, const Weights& n_p) {
+          sums.add(n_p, (0 - p.volume) * stress[k]);
+        });
+      });
     outside_.add_forces(particles_, {right_side_[0], right_side_[1]});
     bands_.each(2, [&](int c) { lattice_.join_images(right_side_[static_cast<std::size_t>(c)]); });
     bands_.each_vector([&](int i) {
@@ -257,17 +259,35 @@ class LaneFullMass final : public FullMassKernel {
     });
   }
 
-  template <class Law, class Pressure>
-  static Stress stress_at(const Slot& p, const Weights& n_p, const Components<CellGradient<Basis>>& grad_v,
-                          const Law& law, const Pressure& pressure) {
+  template <class Give>
+  void scatter_forces(const Give& give) {
+    particles_.template scatter<DivergenceSums<Basis>>({right_side_[0], right_side_[1]}, give);
+  }
+
+  /// Stress of a block's particles from the nodal velocity. The fluid is asked about some of them at a time:
+  /// compiled for every one, the passes would be most of what a build waits for.
+  void set_stress(const Block& block) {
+    constexpr std::size_t some = 32;
+    Strained strained[some];
+    const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, velocity());
+    const std::span<const Slot> slots = particles_.cells().slots(block);
+    Stress* stress = particles_.cells().stresses(block).data();
+    for (std::size_t first = 0; first < slots.size(); first += some) {
+      const std::span<const Slot> these = slots.subspan(first, std::min(some, slots.size() - first));
+      for (std::size_t k = 0; k < these.size(); ++k)
+        strained[k] = strained_at(Weights(particles_.basis(), block, these[k].s), grad_v);
+      if (particles_.has_pressure())
+        for (std::size_t k = 0; k < these.size(); ++k) strained[k].density = density_of(these[k]);
+      particles_.set_stress({strained, these.size()}, stress);
+      stress += these.size();
+    }
+  }
+  static Strained strained_at(const Weights& n_p, const Components<CellGradient<Basis>>& grad_v) {
     const auto [d_00, d_01] = grad_v[0].at(n_p);
     const auto [d_10, d_11] = grad_v[1].at(n_p);
-    const Lanes density = Pressure::varies ? p.mass / select(p.mass > 0, p.volume, 1) : 0;
-    return stress_of(Strained{d_00, d_11, d_01 + d_10, density}, law, pressure, 1);
+    return {d_00, d_11, d_01 + d_10, 0};
   }
-  void set_stress(const Block& block, int k, const Stress& stress) {
-    particles_.cells().stresses(block)[static_cast<std::size_t>(k)] = stress;
-  }
+  static Lanes density_of(const Slot& p) { return p.mass / select(p.mass > 0, p.volume, 1); }
 
   /// The rows of nodes that begin with a band's cells: with the last ones up to the end of the margin.
   [[nodiscard]] Rows nodes_of(int band, Rows cells) const {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <variant>
+#include <span>
 
 #include "solver/kernel/cell_field.hpp"
 #include "solver/kernel/cell_stress.hpp"
@@ -29,6 +29,8 @@ class PlaneParticles {
         rheology_(setup.rheology),
         pressure_(setup.pressure),
         has_pressure_(setup.has_pressure),
+        stress_with_pressure_(stress_pass_of<TaitPressure>(rheology_)),
+        viscous_stress_(stress_pass_of<NoPressure>(rheology_)),
         rows_{0, setup.axis[1].cells},
         seeded_(setup, lattice.stride()),
         cells_(seeded_) {}
@@ -73,17 +75,23 @@ class PlaneParticles {
     });
   }
 
-  /// f(law, pressure) with the scene's own.
+  /// Stress of the scene's fluid [Pa], of some slots.
+  void set_stress(std::span<const Strained> strained, Stress* stress) const {
+    if (has_pressure_)
+      stress_with_pressure_(rheology_, pressure_, strained, stress);
+    else
+      viscous_stress_(rheology_, NoPressure{}, strained, stress);
+  }
+
+  /// f(law, pressure) of a Newtonian fluid; false of another.
   template <class F>
-  void with_fluid(F&& f) const {
-    std::visit(
-        [&](const auto& law) {
-          if (has_pressure_)
-            f(law, pressure_);
-          else
-            f(law, NoPressure{});
-        },
-        rheology_);
+  bool with_newtonian(F&& f) const {
+    const auto* const law = std::get_if<Newtonian>(&rheology_);
+    if (law && has_pressure_)
+      f(*law, pressure_);
+    else if (law)
+      f(*law, NoPressure{});
+    return law != nullptr;
   }
 
  private:
@@ -92,6 +100,8 @@ class PlaneParticles {
   Rheology rheology_;
   TaitPressure pressure_;
   bool has_pressure_;
+  StressPass<TaitPressure> stress_with_pressure_;
+  StressPass<NoPressure> viscous_stress_;
   Rows rows_;
   const Cells seeded_;  // blocks of a copy point to the functions of this one
   Cells cells_;

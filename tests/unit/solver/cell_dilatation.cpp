@@ -3,7 +3,7 @@
 
 #include "solver/kernel/isa.hpp"
 #include "solver/simulation.hpp"
-#include "solver/step/solver.hpp"
+#include "solver/table/make_solver.hpp"
 #include "tests/catch.hpp"
 
 using namespace mpm;
@@ -76,14 +76,7 @@ TEST_CASE("cell dilatation: vector kernels give what the general solver gives") 
         Scheme scheme{basis, Scheme::Transfer::FlipBlend, stepping};
         scheme.dilatation = Scheme::Dilatation::Cell;
         const auto lanes = make_simulation(scene, scheme);
-        std::unique_ptr<Simulation> plain;
-        const FlipBlend transfer(scheme.flip_fraction);
-        if (basis == Scheme::Basis::Linear)
-          plain = std::make_unique<Solver<BSpline<1>, FlipBlend>>(scene, scheme, transfer);
-        else if (basis == Scheme::Basis::Quadratic)
-          plain = std::make_unique<Solver<BSpline<2>, FlipBlend>>(scene, scheme, transfer);
-        else
-          plain = std::make_unique<Solver<BSpline<3>, FlipBlend>>(scene, scheme, transfer);
+        const auto plain = make_general_solver(scene, scheme);
         run_steps(*lanes, 1e-5, 60);
         run_steps(*plain, 1e-5, 60);
         double position = 0, density = 0;

@@ -4,7 +4,7 @@
 
 #include "reference/compressible/tait_column.hpp"
 #include "solver/simulation.hpp"
-#include "solver/step/solver.hpp"
+#include "solver/table/make_solver.hpp"
 #include "tests/catch.hpp"
 
 using namespace mpm;
@@ -90,7 +90,7 @@ TEST_CASE("free surface: vector kernels give what the general solver gives") {
       Scheme scheme = cells_with(Scheme::Transfer::Flip);
       scheme.stepping = stepping;
       const auto lanes = make_simulation(scene, scheme);
-      auto plain = std::make_unique<Solver<BSpline<1>, Flip>>(scene, scheme, Flip{});
+      const auto plain = make_general_solver(scene, scheme);
       for (int k = 0; k < 60; ++k) {
         lanes->advance(k * 1e-3, 1e-3);
         plain->advance(k * 1e-3, 1e-3);

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "solver/kernel/isa.hpp"
-#include "solver/step/solver.hpp"
+#include "solver/simulation.hpp"
 #include "solver/step/time_step.hpp"
 #include "tests/catch.hpp"
 #include "tests/unit/solver/kernel_comparison.hpp"

@@ -4,7 +4,8 @@
 #include <numbers>
 
 #include "solver/kernel/isa.hpp"
-#include "solver/step/solver.hpp"
+#include "solver/simulation.hpp"
+#include "solver/table/make_solver.hpp"
 #include "tests/catch.hpp"
 
 // What the vector kernels are held against: the general solver on the same scenes.
@@ -32,34 +33,6 @@ inline Scene whirl(int nx, int ny) {
   };
   scene.body_acceleration = [](double t) { return Vec2(3 + 100 * t, -2); };
   return scene;
-}
-
-template <class Basis>
-inline std::unique_ptr<Simulation> plain_solver(const Scene& scene, const Scheme& scheme) {
-  switch (scheme.transfer) {
-    case Scheme::Transfer::Pic:
-      return std::make_unique<Solver<Basis, Pic>>(scene, scheme, Pic{});
-    case Scheme::Transfer::FlipBlend:
-      return std::make_unique<Solver<Basis, FlipBlend>>(scene, scheme, FlipBlend{scheme.flip_fraction});
-    case Scheme::Transfer::Apic:
-      return std::make_unique<Solver<Basis, Apic>>(scene, scheme, Apic{});
-    case Scheme::Transfer::FullMass:
-      return std::make_unique<Solver<Basis, FullMass>>(scene, scheme, FullMass{});
-    default:
-      return std::make_unique<Solver<Basis, Flip>>(scene, scheme, Flip{});
-  }
-}
-
-/// The general solver, which visits particle by particle.
-inline std::unique_ptr<Simulation> plain_solver(const Scene& scene, const Scheme& scheme) {
-  switch (scheme.basis) {
-    case Scheme::Basis::Linear:
-      return plain_solver<LinearBasis>(scene, scheme);
-    case Scheme::Basis::Quadratic:
-      return plain_solver<QuadraticBasis>(scene, scheme);
-    default:
-      return plain_solver<CubicBasis>(scene, scheme);
-  }
 }
 
 inline void run_steps(Simulation& simulation, double dt, int steps) {
@@ -110,7 +83,7 @@ inline void require_same_as_plain(const Scene& scene, const Scheme& scheme, doub
     INFO(name(scheme.basis) << " " << name(scheme.transfer) << " " << name(scheme.stepping) << " " << isa);
     use_isa(isa);
     const auto vectors = make_simulation(scene, scheme);
-    const auto plain = plain_solver(scene, scheme);
+    const auto plain = make_general_solver(scene, scheme);
     run_steps(*vectors, dt, steps);
     run_steps(*plain, dt, steps);
     // In USF the general solver keeps the stress that the last step began with, the kernels none.
