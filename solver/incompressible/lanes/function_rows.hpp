@@ -4,8 +4,8 @@
 #include <array>
 
 #include "solver/incompressible/lanes/plane_kernel.hpp"
-#include "solver/kernel/lanes.hpp"
 #include "solver/kernel/cells/storage.hpp"
+#include "solver/kernel/lanes.hpp"
 
 namespace mpm::MPM_ISA {
 

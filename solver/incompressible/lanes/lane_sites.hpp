@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "solver/incompressible/lanes/site_kernel.hpp"
-#include "solver/kernel/lanes.hpp"
 #include "solver/kernel/cells/storage.hpp"
+#include "solver/kernel/lanes.hpp"
 
 namespace mpm::MPM_ISA {
 

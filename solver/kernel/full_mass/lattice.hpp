@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "solver/kernel/cells/storage.hpp"
 #include "solver/kernel/kernel.hpp"
 #include "solver/kernel/lanes.hpp"
-#include "solver/kernel/cells/storage.hpp"
 
 namespace mpm::MPM_ISA {
 
