@@ -252,7 +252,7 @@ RunData simulate(const Study& study, const PlannedRun& plan, const mpm::Scene& s
 void repeat_timing(const Study& study, const PlannedRun& plan, const mpm::Scene& started,
                    const ExactField* exact, reports::TimingRecord& timing) {
   std::vector<double> walls;
-  if (warms_itself(timing.wall_s)) walls.push_back(timing.wall_s);
+  if (warms_itself(study.repetitions, timing.wall_s)) walls.push_back(timing.wall_s);
   while (wants_repetition(study.repetitions, walls))
     walls.push_back(simulate(study, plan, started, exact).timing.wall_s);
   std::ranges::sort(walls);
@@ -265,8 +265,8 @@ void repeat_timing(const Study& study, const PlannedRun& plan, const mpm::Scene&
 
 }  // namespace
 
-bool warms_itself(double wall) {
-  return wall >= 0.05;
+bool warms_itself(int asked, double wall) {
+  return asked > 1 && wall >= 0.05;
 }
 
 bool wants_repetition(int asked, const std::vector<double>& walls) {

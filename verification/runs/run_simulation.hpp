@@ -9,9 +9,10 @@ namespace verification {
 /// Interrupted when a signal has come (interruption.hpp).
 RunData run_simulation(const Study& study, const PlannedRun& plan);
 
-/// Whether a simulation of so many seconds counts as its own warm-up: cold caches and pages cost it some
-/// milliseconds, less than the 5 % below which two times are not told apart.
-bool warms_itself(double wall);
+/// Whether the first simulation, of so many seconds, is timed like the others: what cold caches and pages
+/// cost is a small part of a long one, and the fastest counts. Where one time is `asked` for, it must be a
+/// warm one.
+bool warms_itself(int asked, double wall);
 
 /// Whether a run is to be timed again after these times [s], `asked` times at most: no more than twice, whose
 /// difference shows the noise, once a quarter of a second has been measured. What disturbs a run comes in

@@ -141,8 +141,9 @@ std::optional<double> measure_limit(const MeasuringPlan& plan, double largest,
                                     std::optional<double> expected) {
   if (!perturbation_grows(plan, largest)) return std::nullopt;
   double unstable = largest, stable = 0;
-  // A right guess leaves a short way to go; a wrong one is found out, and costs two runs.
-  if (expected && above_expected * *expected < largest &&
+  // A right guess leaves a short way to go; a wrong one is found out, and costs two runs. Zero is none:
+  // without a step nothing is measured.
+  if (expected && *expected > 0 && above_expected * *expected < largest &&
       perturbation_grows(plan, above_expected * *expected)) {
     unstable = above_expected * *expected;
     if (!perturbation_grows(plan, below_expected * *expected)) stable = below_expected * *expected;

@@ -103,7 +103,7 @@ class PlaneParticles {
   StressPass<TaitPressure> stress_with_pressure_;
   StressPass<NoPressure> viscous_stress_;
   Rows rows_;
-  const Cells seeded_;  // blocks of a copy point to the functions of this one
+  const Cells seeded_;
   Cells cells_;
 };
 

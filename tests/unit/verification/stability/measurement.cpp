@@ -101,6 +101,24 @@ TEST_CASE("the limit of the paper's scheme in shear is measured without knowing 
   CHECK_FALSE(measure_limit(plan, 30));
 }
 
+TEST_CASE("an expected limit shortens the search and does not change what is measured") {
+  MeasuringPlan plan;
+  plan.problem.lattice.per_cell[0] = 1;
+  plan.cells = {1, 7};
+  plan.steps = 300;
+  const auto limit = measure_limit(plan, 30);
+  REQUIRE(limit);
+  // Right, too low, just too high, far too high, and none at all.
+  for (const double part : {1.0, 0.5, 0.9, 1.02, 1.1, 3.0, 0.0}) {
+    INFO(part);
+    const auto found = measure_limit(plan, 30, part * *limit);
+    REQUIRE(found);
+    CHECK(*found == Approx(*limit).epsilon(4e-3));  // both bisections end within 0.2 %
+  }
+  plan.problem.scheme.stepping = Scheme::Stepping::ImplicitEuler;
+  CHECK_FALSE(measure_limit(plan, 30, 1.5));
+}
+
 TEST_CASE("a box holds the wave that it was made for") {
   const double tau = 2 * std::numbers::pi;
   const auto line = box_for({0, tau * 6 / 17}, Waves::Longitudinal);
