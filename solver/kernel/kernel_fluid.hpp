@@ -19,28 +19,24 @@ class KernelFluid {
   [[nodiscard]] bool has_cell_pressure() const { return has_cell_pressure_; }
 
   /// f(pressure, stress_of): stress_of(strained, stress) of a block's slots is a function of a slot's number
-  /// and of a factor of its stress. Either it computes what it returns, and all of f is compiled for every
-  /// fluid; or one call a block set the stresses: where there are few functions, there is little to do a
-  /// block and a call would be felt.
-  template <bool is_inlined, class F>
+  /// and of a factor of its stress. One call a block sets the stresses, so that f is not compiled for every
+  /// fluid. Where there are few functions, there is little to do a block and a call would be felt: there the
+  /// stress of a Newtonian fluid is computed as it is asked for (newtonian_is_inlined).
+  template <bool newtonian_is_inlined, class F>
   void with_stress(F&& f) const {
     with_pressure([&]<class Pressure>(const Pressure& pressure) {
-      if constexpr (is_inlined) {
-        const auto with_law = [&](const auto& law) {
-          f(pressure, [&](std::span<const Strained> strained, Stress*) {
-            return [&law, &pressure, strained](std::size_t k, Lanes factor) {
+      if constexpr (newtonian_is_inlined)
+        if (const auto* law = std::get_if<Newtonian>(&rheology_))
+          return f(pressure, [&](std::span<const Strained> strained, Stress*) {
+            return [law = *law, &pressure, strained](std::size_t k, Lanes factor) {
               return mpm::MPM_ISA::stress_of(strained[k], law, pressure, factor);
             };
           });
-        };
-        std::visit(with_law, rheology_);
-      } else {
-        const StressPass<Pressure> set_stress = stress_pass_of<Pressure>(rheology_);
-        f(pressure, [&](std::span<const Strained> strained, Stress* stress) {
-          set_stress(rheology_, pressure, strained, stress);
-          return [stress](std::size_t k, Lanes factor) { return factor * stress[k]; };
-        });
-      }
+      const StressPass<Pressure> set_stress = stress_pass_of<Pressure>(rheology_);
+      f(pressure, [&](std::span<const Strained> strained, Stress* stress) {
+        set_stress(rheology_, pressure, strained, stress);
+        return [stress](std::size_t k, Lanes factor) { return factor * stress[k]; };
+      });
     });
   }
 

@@ -48,7 +48,7 @@ class LaneKernel final : public Kernel {
 
   void update_stress(const Part& part, NodalVelocity from, double dt) override {
     const Pair v_i = from == NodalVelocity::Current ? fields_.velocity() : fields_.mapped();
-    fluid_.with_stress<stress_is_inlined>([&](const auto& pressure, const auto& stress_of) {
+    fluid_.with_stress<newtonian_is_inlined>([&](const auto& pressure, const auto& stress_of) {
       each_block(part.cells, [&](const Block& block) {
         Stress* const stress = cells_.stresses(block).data();
         const auto strained = strain<no_fetch>(block, part, v_i, dt, pressure);
@@ -67,7 +67,7 @@ class LaneKernel final : public Kernel {
   }
 
   void update_stress_and_accelerate(const Part& part, const double b[2], double dt) override {
-    fluid_.with_stress<stress_is_inlined>(
+    fluid_.with_stress<newtonian_is_inlined>(
         [&]<class Pressure>(const Pressure& pressure, const auto& stress_of) {
           Stress* const room = shares_[static_cast<std::size_t>(part.share)].stress.data();
           scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
@@ -113,7 +113,7 @@ class LaneKernel final : public Kernel {
 
  private:
   using Pair = NodalFields::Pair;
-  static constexpr bool stress_is_inlined = Basis::degree == 1;
+  static constexpr bool newtonian_is_inlined = Basis::degree == 1;
 
   /// Part of a slot, in sixths of its size. The passes of a step share out what has to come from memory as
   /// they share out its time, so that memory is busy all along: the first fetches nodes, the others slots.

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <variant>
 
+#include "solver/material/block_viscosity.hpp"
 #include "solver/material/cell_dilatation.hpp"
 #include "solver/particles.hpp"
 #include "solver/scene/scene.hpp"
@@ -33,20 +33,21 @@ inline Mat2 viscous_stress(double mu, const Mat2& strain_rate) {
   return 2 * mu * strain_rate - (2.0 / 3.0) * mu * strain_rate.trace() * Mat2::Identity();
 }
 
-template <class Basis, class Rheology, class Pressure>
+template <class Basis, class Pressure>
 class FluidStress final : public StressUpdate {
  public:
   FluidStress(const Rheology& rheology, const Pressure& pressure)
-      : rheology_(rheology), pressure_(pressure) {}
+      : viscosity_(rheology), pressure_(pressure) {}
 
-  /// Block by block, so that the viscosities of a block come from one call on an array: in vector registers.
+  /// Block by block, so that the viscosities of a block come from one call on an array: in vector registers,
+  /// and the law is asked for once a block.
   void operator()(Particles& particles, const Grid& grid, const VectorField& nodal_velocity,
                   double dt) const override {
     if constexpr (Pressure::is_of_cell)
       cells_.assign(pressure_, particles, grid, nodal_velocity,
                     [&](const Mat2& l) { return 1 + dt * l.trace(); });
     std::array<Mat2, block> strain_rate;
-    Array mu = Array::Zero();
+    ViscosityBlock mu = ViscosityBlock::Constant(viscosity_.constant());
     for (std::size_t begin = 0; begin < particles.size(); begin += block) {
       const std::size_t count = std::min(block, particles.size() - begin);
       for (std::size_t k = 0; k < count; ++k) {
@@ -55,7 +56,7 @@ class FluidStress final : public StressUpdate {
         if constexpr (Pressure::is_of_cell)
           strain_rate[k] += 0.5 * (cells_.dilatation(begin + k) - l.trace()) * Mat2::Identity();
       }
-      viscosities(strain_rate, count, mu);
+      if (viscosity_.varies()) mu = viscosity_(squared_shear_rates(strain_rate, count));
       for (std::size_t k = 0; k < count; ++k) {
         const std::size_t p = begin + k;
         const Mat2& d = strain_rate[k];
@@ -85,8 +86,7 @@ class FluidStress final : public StressUpdate {
   }
 
  private:
-  static constexpr std::size_t block = 32;
-  using Array = Eigen::Array<double, static_cast<int>(block), 1>;
+  static constexpr std::size_t block = ViscosityBlock::SizeAtCompileTime;
 
   /// Advances a particle's density by dt and returns the one that its pressure belongs to. With dt = 0 the
   /// particles of a cell keep theirs: asking for the stress changes nothing.
@@ -99,19 +99,16 @@ class FluidStress final : public StressUpdate {
     }
   }
 
-  void viscosities(const std::array<Mat2, block>& strain_rate, std::size_t count, Array& mu) const {
-    if constexpr (Rheology::needs_shear_rate) {
-      Array gdot_squared = Array::Ones();  // lanes beyond `count` hold a harmless value
-      for (std::size_t k = 0; k < count; ++k)
-        gdot_squared[static_cast<Eigen::Index>(k)] = 2 * strain_rate[k].squaredNorm();
-      mu = rheology_.viscosity(gdot_squared);
-    } else {
-      mu.setConstant(rheology_.viscosity());
-    }
+  /// gdot^2 = 2 D:D of the particles of a block; places beyond `count` hold a harmless value.
+  static ViscosityBlock squared_shear_rates(const std::array<Mat2, block>& strain_rate, std::size_t count) {
+    ViscosityBlock gdot_squared = ViscosityBlock::Ones();
+    for (std::size_t k = 0; k < count; ++k)
+      gdot_squared[static_cast<Eigen::Index>(k)] = 2 * strain_rate[k].squaredNorm();
+    return gdot_squared;
   }
 
   struct Nothing {};
-  Rheology rheology_;
+  BlockViscosity viscosity_;
   Pressure pressure_;
   [[no_unique_address]] mutable std::conditional_t<Pressure::is_of_cell, CellDensities<Basis>, Nothing>
       cells_;
@@ -120,19 +117,16 @@ class FluidStress final : public StressUpdate {
 /// The update that a scene's fluid and a scheme ask for, on a basis.
 template <class Basis>
 std::unique_ptr<StressUpdate> make_stress_update(const Scene& scene, const Scheme& scheme) {
-  const auto make = [&]<class Law, class Pressure>(const Law& law, const Pressure& pressure) {
-    return std::unique_ptr<StressUpdate>(std::make_unique<FluidStress<Basis, Law, Pressure>>(law, pressure));
+  const auto make = [&]<class Pressure>(const Pressure& pressure) {
+    return std::unique_ptr<StressUpdate>(
+        std::make_unique<FluidStress<Basis, Pressure>>(scene.fluid.rheology, pressure));
   };
   const Fluid& fluid = scene.fluid;
+  if (!fluid.pressure) return make(NoPressure{});
   const TaitPressure tait{fluid.bulk_modulus, 1 / fluid.density};
-  return std::visit(
-      [&](const auto& law) {
-        if (!fluid.pressure) return make(law, NoPressure{});
-        if (scheme.dilatation == Scheme::Dilatation::Cell)
-          return make(law, CellTaitPressure{tait, scene.least_density()});
-        return make(law, tait);
-      },
-      fluid.rheology);
+  if (scheme.dilatation == Scheme::Dilatation::Cell)
+    return make(CellTaitPressure{tait, scene.least_density()});
+  return make(tait);
 }
 
 }  // namespace mpm

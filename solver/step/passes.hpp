@@ -34,7 +34,7 @@ class Passes {
     using Stepping = Scheme::Stepping;
     if (scheme.stepping == Stepping::ImplicitEuler || scheme.stepping == Stepping::ImplicitSdirk2)
       implicit_viscosity_ = make_implicit_viscosity(scene.fluid.rheology, grid_, walls_);
-    if (scheme.resets()) reset_.emplace(scene_, scheme, grid_, walls_);
+    if (scheme.resets()) reset_.emplace(scene_, scheme, grid_, walls_, Transfer::is_grid_field);
     start();
     update_stress(0);
   }
@@ -171,10 +171,11 @@ class Passes {
     update_stress(0);
     forces(t);
     solve_acceleration([&](VectorField& a) { walls_.impose_mean_acceleration(a, t, dt / 2); });
-    if constexpr (Transfer::keeps_velocity) {
-      mass_.template remap<Basis>(grid_, particles_, grid_.acceleration);
-      walls_.impose_mean_acceleration(grid_.acceleration, t, dt / 2);
-    }
+    if constexpr (!Transfer::is_grid_field)
+      if (keeps_velocity()) {
+        mass_.template remap<Basis>(grid_, particles_, grid_.acceleration);
+        walls_.impose_mean_acceleration(grid_.acceleration, t, dt / 2);
+      }
     set_velocity(start_velocity_, dt / 2);
   }
 
@@ -211,15 +212,14 @@ class Passes {
 
   /// The particles take from the grid what the transfer gives them.
   void grid_to_particles(double dt) {
-    for (std::size_t p = 0; p < particles_.size(); ++p) {
-      if constexpr (reads_table) {
+    if constexpr (reads_table)
+      for (std::size_t p = 0; p < particles_.size(); ++p) {
         Vec2 v = Vec2::Zero();
         table_.stencil(p).values([&](std::size_t i, double n) { v += n * grid_.velocity[i]; });
         particles_.velocity[p] = v;
-      } else {
-        transfer_.template take<Basis>(grid_, dt, particles_, p);
       }
-    }
+    else
+      transfer_.template take<Basis>(grid_, dt, particles_);
   }
 
   /// Moves the particles and compresses them with the velocity that they have at t, mapped where they are.
@@ -235,7 +235,7 @@ class Passes {
       if (needs_gradients(scene_)) take_gradients<Basis>(grid_, particles_);
       return drift_straight(dt);
     }
-    if constexpr (Transfer::keeps_velocity) map_velocity(t, grid_, grid_.velocity, mass_, table_);
+    if (keeps_velocity()) map_velocity(t, grid_, grid_.velocity, mass_, table_);
     drift_on(dt);
   }
 
@@ -306,6 +306,9 @@ class Passes {
     judge(move_particles(grid_, particles_, dt, [&](std::size_t p) { return particles_.velocity[p]; }));
   }
 
+  /// Whether a part of the particles' velocity stays their own.
+  [[nodiscard]] bool keeps_velocity() const { return transfer_.grid_fraction() < 1; }
+
   void judge(const Motion& motion) {
     if (!breakdown_) breakdown_ = breakdown_of(motion);
   }
@@ -324,7 +327,7 @@ class Passes {
   bool has_cell_dilatation_;
   ScalarField cell_tension_;
   std::unique_ptr<StressUpdate> update_stress_;
-  std::optional<ParticleReset<Basis, Transfer>> reset_;
+  std::optional<ParticleReset<Basis>> reset_;
   std::unique_ptr<ImplicitViscosity> implicit_viscosity_;
   StageRates rates_;
   VectorField start_velocity_, stage_velocity_, particle_acceleration_;

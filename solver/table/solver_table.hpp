@@ -7,6 +7,12 @@
 
 namespace mpm {
 
+/// The part of its velocity that a particle keeps.
+inline double flip_of(const Scheme& scheme) {
+  if (scheme.transfer == Scheme::Transfer::Flip) return 1;
+  return scheme.transfer == Scheme::Transfer::FlipBlend ? scheme.flip_fraction : 0;
+}
+
 /// Every transfer on one basis, particle by particle.
 template <class Basis>
 std::unique_ptr<Simulation> make_general_solver_on(const Scene& scene, const Scheme& scheme) {
@@ -15,11 +21,9 @@ std::unique_ptr<Simulation> make_general_solver_on(const Scene& scene, const Sch
   };
   switch (scheme.transfer) {
     case Scheme::Transfer::Flip:
-      return make(Flip{});
     case Scheme::Transfer::Pic:
-      return make(Pic{});
     case Scheme::Transfer::FlipBlend:
-      return make(FlipBlend{scheme.flip_fraction});
+      return make(FlipPic(flip_of(scheme)));
     case Scheme::Transfer::Apic:
       return make(Apic{});
     case Scheme::Transfer::FullMass:
@@ -31,12 +35,8 @@ std::unique_ptr<Simulation> make_general_solver_on(const Scene& scene, const Sch
 /// On the vector kernels where they cover scene and scheme.
 template <class Basis>
 std::unique_ptr<Simulation> make_solver_on(const Scene& scene, const Scheme& scheme, int threads) {
-  if (lanes_cover(scene, scheme)) {
-    const double flip = scheme.transfer == Scheme::Transfer::Flip        ? 1
-                        : scheme.transfer == Scheme::Transfer::FlipBlend ? scheme.flip_fraction
-                                                                         : 0;
-    return std::make_unique<LaneSolver<Basis>>(scene, scheme, flip, threads);
-  }
+  if (lanes_cover(scene, scheme))
+    return std::make_unique<LaneSolver<Basis>>(scene, scheme, flip_of(scheme), threads);
   if constexpr (Basis::X::support == Basis::Y::support)  // a plane
     if (full_mass_lanes_cover<Basis>(scene, scheme))
       return std::make_unique<FullMassSolver<Basis>>(scene, scheme, threads);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <type_traits>
 
 #include "solver/scene/seeding.hpp"
 #include "solver/transfer/consistent_mass.hpp"
@@ -17,12 +16,14 @@ namespace mpm {
 ///   velocity and density are projected with the consistent mass (walls' velocity imposed), sampled on the
 ///   lattice, and mended by a part in 1e5 or so, so that total mass and momentum are those of before.
 /// Every particle's mass becomes its density times its share of the domain.
-template <class Basis, class Transfer>
+template <class Basis>
 class ParticleReset {
  public:
-  ParticleReset(const Scene& scene, const Scheme& scheme, const Grid& grid, const WallNodes& walls)
+  /// is_grid_field: of the transfer (transfer.hpp).
+  ParticleReset(const Scene& scene, const Scheme& scheme, const Grid& grid, const WallNodes& walls,
+                bool is_grid_field)
       : clock_(scheme),
-        needs_gradients_(needs_gradients(scene)),
+        takes_gradients_(is_grid_field && needs_gradients(scene)),
         velocity_mass_(grid, walls),
         density_mass_(grid) {
     const Particles seeded = seed_particles(scene);
@@ -47,15 +48,15 @@ class ParticleReset {
     clock_.restart();
     project(t, walls, grid, particles);
     const Vec2 momentum = total_momentum(particles);
+    const bool is_affine = !takes_gradients_ && !particles.affine.empty();
     for (std::size_t p = 0; p < particles.size(); ++p) {
       particles.position[p] = position_[p];
       particles.density[p] = interpolate<Basis>(grid, density_, position_[p]).x();
       particles.velocity[p] = interpolate<Basis>(grid, grid.velocity, position_[p]);
-      if constexpr (std::is_same_v<Transfer, Apic>)
-        particles.affine[p] = Apic::affine_field<Basis>(grid, grid.velocity, position_[p]);
+      if (is_affine) particles.affine[p] = Apic::affine_field<Basis>(grid, grid.velocity, position_[p]);
       particles.mass[p] = particles.density[p] * volume_[p];
     }
-    if (Transfer::is_grid_field && needs_gradients_) take_gradients<Basis>(grid, particles);
+    if (takes_gradients_) take_gradients<Basis>(grid, particles);
     keep_mass(particles);
     keep_momentum(momentum, grid, particles);
   }
@@ -122,7 +123,7 @@ class ParticleReset {
   }
 
   ResetClock clock_;
-  bool needs_gradients_;
+  bool takes_gradients_;
   double mass_ = 0;  // of all particles at the start, which nothing changes [kg/m]
   VectorField position_;
   ScalarField volume_;  // [m2]

@@ -10,10 +10,9 @@ namespace mpm {
 // Transfer policies: what a particle hands to the grid and takes from it. Each names
 //   Mass             how nodal momentum becomes nodal velocity (lumped or consistent);
 //   add_momentum     P2G: the share of particle p in the nodal momenta;
-//   take             G2P: the new velocity of particle p from the grid's velocity and acceleration;
+//   take             G2P: the new velocities of the particles from the grid's velocity and acceleration;
 //   take_jump        the share of particle p in a jump of nodal velocities (impulsive start);
 //   grid_fraction    the part of a particle's velocity that take() replaces by the grid's;
-//   keeps_velocity   whether a part of it stays the particle's own;
 //   is_grid_field    whether P2G after G2P is the identity, so that particles stand for the grid's own field.
 
 /// P2G of transfers whose particles carry a velocity only: sum_p N_ip m_p v_p (paper Eq. 15).
@@ -35,47 +34,39 @@ struct VelocityToGrid {
   }
 };
 
-/// FLIP: the particle keeps its velocity and takes the grid's increment (paper Eqs. 18-19).
-struct Flip : VelocityToGrid {
+/// FLIP: the particle keeps its velocity and takes the grid's increment (paper Eqs. 18-19). PIC: it takes the
+/// grid's velocity (Harlow 1964). And means of both (Zhu and Bridson 2005).
+struct FlipPic : VelocityToGrid {
   using Mass = LumpedMass;
-  static constexpr bool keeps_velocity = true, is_grid_field = false;
-  [[nodiscard]] static double grid_fraction() { return 0; }
+  static constexpr bool is_grid_field = false;
+  double flip_fraction;  ///< 1 is FLIP, 0 is PIC
 
-  template <class Basis>
-  void take(const Grid& grid, double dt, Particles& particles, std::size_t p) const {
-    particles.velocity[p] += dt * interpolate<Basis>(grid, grid.acceleration, particles.position[p]);
-  }
-};
-
-/// PIC: the particle takes the grid's velocity (Harlow 1964).
-struct Pic : VelocityToGrid {
-  using Mass = LumpedMass;
-  static constexpr bool keeps_velocity = false, is_grid_field = false;
-  [[nodiscard]] static double grid_fraction() { return 1; }
-
-  template <class Basis>
-  void take(const Grid& grid, double, Particles& particles, std::size_t p) const {
-    particles.velocity[p] = interpolate<Basis>(grid, grid.velocity, particles.position[p]);
-  }
-};
-
-/// A mean of FLIP and PIC (Zhu and Bridson 2005).
-struct FlipBlend : VelocityToGrid {
-  using Mass = LumpedMass;
-  static constexpr bool keeps_velocity = true, is_grid_field = false;
-  double flip_fraction;
-
-  explicit FlipBlend(double fraction) : flip_fraction(fraction) {}
+  explicit FlipPic(double fraction) : flip_fraction(fraction) {}
   [[nodiscard]] double grid_fraction() const { return 1 - flip_fraction; }
 
   template <class Basis>
-  void take(const Grid& grid, double dt, Particles& particles, std::size_t p) const {
+  void take(const Grid& grid, double dt, Particles& particles) const {
+    const auto at = [&](const VectorField& field, std::size_t p) {
+      return interpolate<Basis>(grid, field, particles.position[p]);
+    };
+    VectorField& v = particles.velocity;
+    if (flip_fraction == 1)
+      for (std::size_t p = 0; p < v.size(); ++p) v[p] += dt * at(grid.acceleration, p);
+    else if (flip_fraction == 0)
+      for (std::size_t p = 0; p < v.size(); ++p) v[p] = at(grid.velocity, p);
+    else
+      for (std::size_t p = 0; p < v.size(); ++p) take_both<Basis>(grid, dt, particles.position[p], v[p]);
+  }
+
+ private:
+  template <class Basis>
+  void take_both(const Grid& grid, double dt, const Vec2& x_p, Vec2& v_p) const {
     Vec2 v = Vec2::Zero(), a = Vec2::Zero();
-    Stencil<Basis>(grid, particles.position[p]).values([&](std::size_t i, double n) {
+    Stencil<Basis>(grid, x_p).values([&](std::size_t i, double n) {
       v += n * grid.velocity[i];
       a += n * grid.acceleration[i];
     });
-    particles.velocity[p] = flip_fraction * (particles.velocity[p] + dt * a) + (1 - flip_fraction) * v;
+    v_p = flip_fraction * (v_p + dt * a) + (1 - flip_fraction) * v;
   }
 };
 
@@ -85,7 +76,7 @@ struct FlipBlend : VelocityToGrid {
 /// gradient (Jiang et al. 2017), which needs no inverse on cell edges.
 struct Apic {
   using Mass = LumpedMass;
-  static constexpr bool keeps_velocity = false, is_grid_field = false;
+  static constexpr bool is_grid_field = false;
   [[nodiscard]] static double grid_fraction() { return 1; }
 
   template <class Basis>
@@ -101,9 +92,11 @@ struct Apic {
   }
 
   template <class Basis>
-  void take(const Grid& grid, double, Particles& particles, std::size_t p) const {
-    particles.velocity[p] = interpolate<Basis>(grid, grid.velocity, particles.position[p]);
-    particles.affine[p] = affine_field<Basis>(grid, grid.velocity, particles.position[p]);
+  void take(const Grid& grid, double, Particles& particles) const {
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.velocity[p] = interpolate<Basis>(grid, grid.velocity, particles.position[p]);
+      particles.affine[p] = affine_field<Basis>(grid, grid.velocity, particles.position[p]);
+    }
   }
 
   template <class Basis>
@@ -136,12 +129,13 @@ struct Apic {
 /// (Burgess, Sulsky and Brackbill 1992).
 struct FullMass : VelocityToGrid {
   using Mass = ConsistentMass;
-  static constexpr bool keeps_velocity = false, is_grid_field = true;
+  static constexpr bool is_grid_field = true;
   [[nodiscard]] static double grid_fraction() { return 1; }
 
   template <class Basis>
-  void take(const Grid& grid, double, Particles& particles, std::size_t p) const {
-    particles.velocity[p] = interpolate<Basis>(grid, grid.velocity, particles.position[p]);
+  void take(const Grid& grid, double, Particles& particles) const {
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      particles.velocity[p] = interpolate<Basis>(grid, grid.velocity, particles.position[p]);
   }
 };
 
