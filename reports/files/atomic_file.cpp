@@ -8,7 +8,6 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <regex>
 #include <system_error>
 
 #include "reports/files/io_error.hpp"
@@ -76,6 +75,12 @@ class TemporaryFile {
   bool committed_ = false;
 };
 
+/// Whether a name ends in a dot and digits.
+bool ends_in_number(const std::filesystem::path& name) {
+  const std::string extension = name.extension().string();
+  return extension.size() > 1 && extension.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
 }  // namespace
 
 void write_file(const std::filesystem::path& path, std::string_view content, Durability durability) {
@@ -88,8 +93,9 @@ bool is_temporary(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error))) return false;
   // NAME.PROCESS.SERIAL.tmp
-  static const std::regex ours(R"(.+\.[0-9]+\.[0-9]+\.tmp)");
-  return std::regex_match(path.filename().string(), ours);
+  const std::filesystem::path serial = path.stem(), process = serial.stem();
+  return path.extension() == ".tmp" && ends_in_number(serial) && ends_in_number(process) &&
+         process.has_stem();
 }
 
 void keep_file(const std::filesystem::path& path, std::string_view content) {

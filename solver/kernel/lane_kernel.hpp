@@ -48,12 +48,9 @@ class LaneKernel final : public Kernel {
 
   void update_stress(const Part& part, NodalVelocity from, double dt) override {
     const Pair v_i = from == NodalVelocity::Current ? fields_.velocity() : fields_.mapped();
-    fluid_.with_stress<newtonian_is_inlined>([&](const auto& pressure, const auto& stress_of) {
+    fluid_.with_stress<false>([&](const auto& pressure, const auto& stress_of) {
       each_block(part.cells, [&](const Block& block) {
-        Stress* const stress = cells_.stresses(block).data();
-        const auto strained = strain<no_fetch>(block, part, v_i, dt, pressure);
-        const auto stress_at = stress_of(strained, stress);
-        for (std::size_t k = 0; k < strained.size(); ++k) stress[k] = stress_at(k, 1);
+        stress_of(strain<no_fetch>(block, part, v_i, dt, pressure), cells_.stresses(block).data());
       });
     });
   }

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <algorithm>
-
-#include "solver/grid/tensor_mass.hpp"
+#include "solver/grid/axis.hpp"
 #include "solver/kernel/full_mass/full_mass_kernel.hpp"
 
 namespace mpm {
@@ -13,37 +10,6 @@ namespace mpm {
 /// diagonal by 0.27, 0.43 and 0.54 a node for degree 1 to 3; cut off at the same reach it leaves 2.3 times as
 /// much for degree 3. A longer reach costs more than the iterations that it saves. Where walls prescribe the
 /// values of their functions, these are left out: the solves are for the others.
-inline LineMass line_mass(const Axis& axis, bool walls_prescribe) {
-  const Eigen::MatrixXd whole = mass_along(axis);
-  const auto count = static_cast<int>(whole.rows());
-  LineMass line{std::min(3 * axis.degree - 1, (count - 1) / 2), count, {}, {}};
-  for (int i = 0; i < count; ++i) line.diagonal.push_back(whole(i, i));
-
-  Eigen::MatrixXd mass = whole;
-  if (!axis.periodic && walls_prescribe)
-    for (const int wall : {0, count - 1}) {
-      mass.row(wall).setZero();
-      mass.col(wall).setZero();
-      mass(wall, wall) = whole(wall, wall);
-    }
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(count, count);
-  for (int i = 0; i < count; ++i) {
-    std::vector<int> near;
-    for (int d = -line.reach; d <= line.reach; ++d) {
-      const int j = i + d;
-      if (axis.periodic || (j >= 0 && j < count)) near.push_back((j + count) % count);
-    }
-    const Eigen::MatrixXd columns = mass(Eigen::all, near), normal = columns.transpose() * columns;
-    const Eigen::VectorXd column = normal.llt().solve(mass(near, i));
-    for (std::size_t k = 0; k < near.size(); ++k) inverse(near[k], i) = column[static_cast<Eigen::Index>(k)];
-  }
-  inverse = (0.5 * (inverse + inverse.transpose())).eval();
-  for (int d = -line.reach; d <= line.reach; ++d)
-    for (int i = 0; i < count; ++i) {
-      const int j = axis.periodic ? (i + d + count) % count : i + d;
-      line.inverse.push_back(j < 0 || j >= count ? 0 : inverse(i, j));
-    }
-  return line;
-}
+LineMass line_mass(const Axis& axis, bool walls_prescribe);
 
 }  // namespace mpm

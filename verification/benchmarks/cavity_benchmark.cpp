@@ -1,10 +1,10 @@
 #include "verification/benchmarks/cavity_benchmark.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "verification/convergence/eca_hoekstra.hpp"
+#include "verification/convergence/least_squares.hpp"
 
 namespace verification {
 namespace {
@@ -96,15 +96,15 @@ std::vector<CavityGradedVolumes> by_volumes(const CavityBenchmarkFluid& fluid,
 }
 
 double extrapolated(const std::vector<int>& cells, const std::vector<double>& values) {
-  Eigen::Matrix3d powers;
-  Eigen::Vector3d right;
+  Eigen::MatrixXd powers(3, 3);
+  Eigen::VectorXd right(3);
   for (int k = 0; k < 3; ++k) {
     const std::size_t i = values.size() - 3 + static_cast<std::size_t>(k);
     const double h = double(cells.back()) / cells[i];
     powers.row(k) << 1, h * h, h * h * h;
     right[k] = values[i];
   }
-  return powers.partialPivLu().solve(right)[0];
+  return least_squares(powers, right)[0];
 }
 
 std::vector<CavityBenchmarkRow> cavity_benchmark(const CavityBenchmarkFluid& fluid,

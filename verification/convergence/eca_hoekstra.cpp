@@ -1,11 +1,11 @@
 #include "verification/convergence/eca_hoekstra.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "verification/convergence/least_squares.hpp"
 #include "verification/convergence/root.hpp"
 #include "verification/not_a_number.hpp"
 
@@ -60,7 +60,7 @@ LinearFit fit_linear(const ScaledLadder& ladder, const Eigen::MatrixXd& basis) {
   const Eigen::MatrixXd scaled = root_weight.asDiagonal() * design * size.cwiseInverse().asDiagonal();
   const Eigen::VectorXd target = root_weight.cwiseProduct(ladder.y.matrix());
   LinearFit fit;
-  fit.coefficients = scaled.colPivHouseholderQr().solve(target).cwiseQuotient(size);
+  fit.coefficients = least_squares(scaled, target).cwiseQuotient(size);
   fit.residual = ladder.y - (design * fit.coefficients).array();
   return fit;
 }

@@ -1,8 +1,8 @@
 #include "verification/convergence/floor_fit.hpp"
 
-#include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
+
+#include "verification/convergence/least_squares.hpp"
 
 namespace verification {
 
@@ -19,7 +19,7 @@ std::optional<FloorFit> fit_floor(const std::vector<double>& steps, const std::v
     shape(k, 1) = 1 / errors[i];
   }
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(levels);
-  const Eigen::Vector2d solution = shape.colPivHouseholderQr().solve(ones);
+  const Eigen::Vector2d solution = least_squares(shape, ones);
   const double misfit = (shape * solution - ones).cwiseAbs().maxCoeff();
   return FloorFit{solution[0] / std::pow(steps.back(), order), solution[1], misfit};
 }

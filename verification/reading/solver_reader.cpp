@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
 #include <stdexcept>
 
 #include "reports/figures/figures.hpp"
@@ -32,13 +31,18 @@ std::vector<std::string> read_command(TomlTable& table, const std::string& key) 
   return command;
 }
 
+constexpr const char* letters_and_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+
+/// Refuses what looks like a placeholder, {name}, and is none of those that are known.
 void require_placeholders(const TomlTable& table, const std::string& key, const std::string& word,
                           const std::vector<std::string>& known) {
-  static const std::regex braces(R"(\{[A-Za-z][A-Za-z0-9_-]*\})");
-  for (std::sregex_iterator found(word.begin(), word.end(), braces), end; found != end; ++found)
-    if (std::ranges::count(known, found->str()) == 0)
-      table.fail(key,
-                 fmt::format("'{}' is no placeholder; there are {}", found->str(), fmt::join(known, " ")));
+  for (std::size_t begin = word.find('{'); begin != std::string::npos; begin = word.find('{', begin + 1)) {
+    const std::size_t end = word.find_first_not_of(letters_and_digits, begin + 1);
+    if (end == std::string::npos || word[end] != '}') continue;  // braces of somebody's shell
+    const std::string found = word.substr(begin, end + 1 - begin);
+    if (found.size() > 2 && std::ranges::count(known, found) == 0)
+      table.fail(key, fmt::format("'{}' is no placeholder; there are {}", found, fmt::join(known, " ")));
+  }
 }
 
 /// What runs a scene, or where its results lie already.

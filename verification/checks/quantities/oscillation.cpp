@@ -1,9 +1,10 @@
 #include "verification/checks/quantities/oscillation.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
+
+#include "verification/convergence/least_squares.hpp"
 
 namespace verification {
 namespace {
@@ -68,7 +69,7 @@ std::optional<Oscillation> fit_damped_oscillation(const Signal& signal, const Os
       jacobian.row(i) << cosine, sine, t * (x[1] * cosine - x[0] * sine), -t * model;
       residual[i] = signal.value[k] / size - model;
     }
-    const Eigen::Vector4d step = jacobian.colPivHouseholderQr().solve(residual);
+    const Eigen::Vector4d step = least_squares(jacobian, residual);
     x += step;
     if (!x.allFinite() || !(x[2] > 0)) return std::nullopt;
     // Far below any tolerance on a period, far above rounding in the sums.
@@ -86,7 +87,7 @@ std::optional<std::complex<double>> fit_harmonic(const Signal& signal, double an
     basis.row(i) << 1, std::cos(phase), std::sin(phase);
   }
   const Eigen::Vector3d fit =
-      basis.colPivHouseholderQr().solve(Eigen::Map<const Eigen::VectorXd>(signal.value.data(), rows));
+      least_squares(basis, Eigen::Map<const Eigen::VectorXd>(signal.value.data(), rows));
   if (!fit.allFinite()) return std::nullopt;
   return std::complex<double>(fit[1], -fit[2]);
 }
