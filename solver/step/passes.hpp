@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "solver/grid/boundary.hpp"
@@ -44,12 +45,11 @@ class Passes {
   [[nodiscard]] const std::optional<std::string>& breakdown() const { return breakdown_; }
 
   /// The grid with the particles' velocity mapped to it and the walls' imposed.
-  [[nodiscard]] Grid mapped_grid(double t) const {
-    Grid grid = grid_;
-    Mass mass(grid, walls_);
-    StencilTable table;
-    map_velocity(t, grid, grid.velocity, mass, table);
-    return grid;
+  [[nodiscard]] const Grid& mapped_grid(double t) const {
+    // Beside the state, and kept: to lay out a consistent mass costs as much as a dozen steps of a strip.
+    if (!sampled_) sampled_ = std::make_unique<Sampled>(grid_, walls_);
+    map_velocity(t, sampled_->grid, sampled_->grid.velocity, sampled_->mass, sampled_->table);
+    return sampled_->grid;
   }
 
   /// Puts the particles back on their lattice where that is due, after a step from t to t + dt.
@@ -324,6 +324,14 @@ class Passes {
   WallNodes walls_;
   Mass mass_;
   StencilTable table_;
+  /// Where mapped_grid() maps to.
+  struct Sampled {
+    Sampled(const Grid& of, const WallNodes& walls) : grid(of), mass(grid, walls) {}
+    Grid grid;
+    Mass mass;
+    StencilTable table;
+  };
+  mutable std::unique_ptr<Sampled> sampled_;
   bool has_cell_dilatation_;
   ScalarField cell_tension_;
   std::unique_ptr<StressUpdate> update_stress_;
