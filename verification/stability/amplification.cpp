@@ -193,7 +193,7 @@ Amplification amplification_matrix(const Scheme& scheme, const BlochSymbols& sym
 double spectral_radius(const Amplification& matrix) {
   if (!matrix.allFinite()) return std::numeric_limits<double>::infinity();
   if (matrix.rows() == 1) return std::abs(matrix(0, 0));
-  if (matrix.rows() == 2) {  // what most waves along a line have: by the quadratic, a tenth of the general cost
+  if (matrix.rows() == 2) {  // most waves along a line: by the quadratic, a tenth of the general cost
     const std::complex<double> mean = 0.5 * (matrix(0, 0) + matrix(1, 1)),
                                half = 0.5 * (matrix(0, 0) - matrix(1, 1)),
                                root = std::sqrt(half * half + matrix(0, 1) * matrix(1, 0));
