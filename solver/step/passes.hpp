@@ -212,12 +212,8 @@ class Passes {
 
   /// The particles take from the grid what the transfer gives them.
   void grid_to_particles(double dt) {
-    if constexpr (reads_table)
-      for (std::size_t p = 0; p < particles_.size(); ++p) {
-        Vec2 v = Vec2::Zero();
-        table_.stencil(p).values([&](std::size_t i, double n) { v += n * grid_.velocity[i]; });
-        particles_.velocity[p] = v;
-      }
+    if constexpr (keeps_table && std::is_same_v<Transfer, FullMass>)
+      for (std::size_t p = 0; p < particles_.size(); ++p) particles_.velocity[p] = velocity_by_table(p);
     else
       transfer_.template take<Basis>(grid_, dt, particles_);
   }
@@ -242,7 +238,10 @@ class Passes {
   /// Particles follow the interpolated grid velocity (the paper's Eq. 20 uses their own).
   void move_with_grid(double dt) {
     judge(move_particles(grid_, particles_, dt, [&](std::size_t p) {
-      return interpolate<Basis>(grid_, grid_.velocity, particles_.position[p]);
+      if constexpr (keeps_table)
+        return velocity_by_table(p);
+      else
+        return interpolate<Basis>(grid_, grid_.velocity, particles_.position[p]);
     }));
   }
 
@@ -269,7 +268,7 @@ class Passes {
   Vec2 map_velocity(double t, Grid& grid, VectorField& velocity, Mass& mass, StencilTable& table) const {
     std::fill(grid.mass.begin(), grid.mass.end(), 0.0);
     std::fill(velocity.begin(), velocity.end(), Vec2::Zero());
-    if (mass.needs_table() || implicit_viscosity_) table.assign<Basis>(grid, particles_);
+    if (keeps_table || mass.needs_table() || implicit_viscosity_) table.assign<Basis>(grid, particles_);
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       if constexpr (reads_table)
         transfer_.template add_momentum<Basis>(table.stencil(p), particles_, p, grid.mass, velocity);
@@ -313,9 +312,17 @@ class Passes {
     if (!breakdown_) breakdown_ = breakdown_of(motion);
   }
 
-  /// Whether particles find their stencils written out: with the matrix of a strip, where they stand as long
-  /// as rows slide.
-  static constexpr bool reads_table = Basis::X::support == 1 && std::is_same_v<Transfer, FullMass>;
+  /// The grid's velocity where a particle was when its momentum was mapped last.
+  [[nodiscard]] Vec2 velocity_by_table(std::size_t p) const {
+    Vec2 v = Vec2::Zero();
+    table_.stencil(p).values([&](std::size_t i, double n) { v += n * grid_.velocity[i]; });
+    return v;
+  }
+
+  /// Whether stencils are written out whatever else needs them: on a strip, where they stand as long as rows
+  /// slide. And whether the transfer reads them (APIC asks for offsets too).
+  static constexpr bool keeps_table = Basis::X::support == 1;
+  static constexpr bool reads_table = keeps_table && !std::is_same_v<Transfer, Apic>;
 
   const Scene scene_;  // its own: whoever made it may be gone
   Transfer transfer_;
