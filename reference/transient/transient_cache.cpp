@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <random>
+#include <string_view>
 #include <system_error>
 
 namespace reference {
@@ -16,7 +16,7 @@ namespace {
 // To be raised with any change that changes what a problem's solution is: mesh, start, error, layout.
 constexpr const char* kFormat = "mpm-verify transient reference, format 3\n";
 
-std::uint64_t fnv1a(const std::string& bytes) {
+std::uint64_t fnv1a(std::string_view bytes) {
   std::uint64_t hash = 14695981039346656037u;
   for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
   return hash;
@@ -46,7 +46,7 @@ void put(std::string& bytes, const std::vector<GradientHistory::Snapshot>& snaps
 /// Reads values off a byte string; after the first that is not there, `good` is false.
 class Reader {
  public:
-  explicit Reader(const std::string& bytes) : bytes_(bytes) {}
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
   template <class T>
   T get() {
     T value{};
@@ -60,8 +60,10 @@ class Reader {
   }
   std::vector<double> get(std::size_t count) {
     if ((bytes_.size() - at_) / sizeof(double) < count) good_ = false;
-    std::vector<double> values;
-    for (std::size_t i = 0; good_ && i < count; ++i) values.push_back(get<double>());
+    if (!good_) return {};
+    std::vector<double> values(count);
+    if (count > 0) std::memcpy(values.data(), bytes_.data() + at_, count * sizeof(double));
+    at_ += count * sizeof(double);
     return values;
   }
   std::vector<GradientHistory::Snapshot> snapshots() {
@@ -77,7 +79,7 @@ class Reader {
   [[nodiscard]] bool good() const { return good_; }
 
  private:
-  const std::string& bytes_;
+  std::string_view bytes_;
   std::size_t at_ = 0;
   bool good_ = true;
 };
@@ -101,12 +103,17 @@ std::optional<StoredTransient> load_transient(const std::filesystem::path& direc
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error))) return std::nullopt;
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::nullopt;
-  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) return std::nullopt;
+  std::string bytes(size, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (!file) return std::nullopt;
   const std::string head = header(key);
   if (bytes.size() < head.size() + sizeof(std::uint64_t) || bytes.compare(0, head.size(), head) != 0) {
     return std::nullopt;
   }
-  const std::string body = bytes.substr(head.size(), bytes.size() - head.size() - sizeof(std::uint64_t));
+  const std::string_view body =
+      std::string_view(bytes).substr(head.size(), bytes.size() - head.size() - sizeof(std::uint64_t));
   std::uint64_t checksum = 0;
   std::memcpy(&checksum, bytes.data() + bytes.size() - sizeof checksum, sizeof checksum);
   if (checksum != fnv1a(body)) return std::nullopt;

@@ -49,13 +49,21 @@ void BandedMatrix::factorise() {
 }
 
 void BandedMatrix::solve(double* x) const {
-  const double* row = band_.data() + reach_;  // its diagonal entry
-  for (int i = 0; i < size_; ++i, row += reach_ + 1)
-    for (int k = std::min(i, reach_) / stride_ * stride_; k > 0; k -= stride_) x[i] -= row[-k] * x[i - k];
-  for (int i = 0; i < size_; ++i) x[i] /= at(i, i);
+  // Both sweeps gather into a register, the nearest unknown last: a row waits for its neighbour's sum alone.
+  const double* diagonal = band_.data() + reach_;
+  for (int i = 0; i < size_; ++i, diagonal += reach_ + 1) {
+    double sum = x[i];
+    for (int k = std::min(i, reach_) / stride_ * stride_; k > 0; k -= stride_) sum -= diagonal[-k] * x[i - k];
+    x[i] = sum;
+  }
+  diagonal = band_.data() + reach_;
+  for (int i = 0; i < size_; ++i, diagonal += reach_ + 1) x[i] /= *diagonal;
   for (int i = size_ - 1; i >= 0; --i) {
-    row -= reach_ + 1;
-    for (int k = stride_; k <= std::min(i, reach_); k += stride_) x[i - k] -= row[-k] * x[i];
+    diagonal -= reach_ + 1;
+    double sum = x[i];
+    for (int k = std::min(size_ - 1 - i, reach_) / stride_ * stride_; k > 0; k -= stride_)
+      sum -= diagonal[k * reach_] * x[i + k];  // of row i + k
+    x[i] = sum;
   }
 }
 

@@ -78,7 +78,10 @@ template <class Basis>
 Mat2 gradient(const Grid& grid, const VectorField& field, const Vec2& point) {
   Mat2 sum = Mat2::Zero();
   Stencil<Basis>(grid, point).gradients([&](std::size_t i, const Vec2& dn) {
-    sum += field[i] * dn.transpose();
+    if constexpr (Basis::X::support == 1)  // nothing varies along x
+      sum.col(1) += field[i] * dn.y();
+    else
+      sum += field[i] * dn.transpose();
   });
   return sum;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "solver/grid/boundary.hpp"
@@ -44,12 +45,11 @@ class Passes {
   [[nodiscard]] const std::optional<std::string>& breakdown() const { return breakdown_; }
 
   /// The grid with the particles' velocity mapped to it and the walls' imposed.
-  [[nodiscard]] Grid mapped_grid(double t) const {
-    Grid grid = grid_;
-    Mass mass(grid, walls_);
-    StencilTable table;
-    map_velocity(t, grid, grid.velocity, mass, table);
-    return grid;
+  [[nodiscard]] const Grid& mapped_grid(double t) const {
+    // Beside the state, and kept: to lay out a consistent mass costs as much as a dozen steps of a strip.
+    if (!sampled_) sampled_ = std::make_unique<Sampled>(grid_, walls_);
+    map_velocity(t, sampled_->grid, sampled_->grid.velocity, sampled_->mass, sampled_->table);
+    return sampled_->grid;
   }
 
   /// Puts the particles back on their lattice where that is due, after a step from t to t + dt.
@@ -212,12 +212,8 @@ class Passes {
 
   /// The particles take from the grid what the transfer gives them.
   void grid_to_particles(double dt) {
-    if constexpr (reads_table)
-      for (std::size_t p = 0; p < particles_.size(); ++p) {
-        Vec2 v = Vec2::Zero();
-        table_.stencil(p).values([&](std::size_t i, double n) { v += n * grid_.velocity[i]; });
-        particles_.velocity[p] = v;
-      }
+    if constexpr (keeps_table && std::is_same_v<Transfer, FullMass>)
+      for (std::size_t p = 0; p < particles_.size(); ++p) particles_.velocity[p] = velocity_by_table(p);
     else
       transfer_.template take<Basis>(grid_, dt, particles_);
   }
@@ -242,7 +238,10 @@ class Passes {
   /// Particles follow the interpolated grid velocity (the paper's Eq. 20 uses their own).
   void move_with_grid(double dt) {
     judge(move_particles(grid_, particles_, dt, [&](std::size_t p) {
-      return interpolate<Basis>(grid_, grid_.velocity, particles_.position[p]);
+      if constexpr (keeps_table)
+        return velocity_by_table(p);
+      else
+        return interpolate<Basis>(grid_, grid_.velocity, particles_.position[p]);
     }));
   }
 
@@ -269,7 +268,7 @@ class Passes {
   Vec2 map_velocity(double t, Grid& grid, VectorField& velocity, Mass& mass, StencilTable& table) const {
     std::fill(grid.mass.begin(), grid.mass.end(), 0.0);
     std::fill(velocity.begin(), velocity.end(), Vec2::Zero());
-    if (mass.needs_table() || implicit_viscosity_) table.assign<Basis>(grid, particles_);
+    if (keeps_table || mass.needs_table() || implicit_viscosity_) table.assign<Basis>(grid, particles_);
     for (std::size_t p = 0; p < particles_.size(); ++p) {
       if constexpr (reads_table)
         transfer_.template add_momentum<Basis>(table.stencil(p), particles_, p, grid.mass, velocity);
@@ -313,9 +312,17 @@ class Passes {
     if (!breakdown_) breakdown_ = breakdown_of(motion);
   }
 
-  /// Whether particles find their stencils written out: with the matrix of a strip, where they stand as long
-  /// as rows slide.
-  static constexpr bool reads_table = Basis::X::support == 1 && std::is_same_v<Transfer, FullMass>;
+  /// The grid's velocity where a particle was when its momentum was mapped last.
+  [[nodiscard]] Vec2 velocity_by_table(std::size_t p) const {
+    Vec2 v = Vec2::Zero();
+    table_.stencil(p).values([&](std::size_t i, double n) { v += n * grid_.velocity[i]; });
+    return v;
+  }
+
+  /// Whether stencils are written out whatever else needs them: on a strip, where they stand as long as rows
+  /// slide. And whether the transfer reads them (APIC asks for offsets too).
+  static constexpr bool keeps_table = Basis::X::support == 1;
+  static constexpr bool reads_table = keeps_table && !std::is_same_v<Transfer, Apic>;
 
   const Scene scene_;  // its own: whoever made it may be gone
   Transfer transfer_;
@@ -324,6 +331,14 @@ class Passes {
   WallNodes walls_;
   Mass mass_;
   StencilTable table_;
+  /// Where mapped_grid() maps to.
+  struct Sampled {
+    Sampled(const Grid& of, const WallNodes& walls) : grid(of), mass(grid, walls) {}
+    Grid grid;
+    Mass mass;
+    StencilTable table;
+  };
+  mutable std::unique_ptr<Sampled> sampled_;
   bool has_cell_dilatation_;
   ScalarField cell_tension_;
   std::unique_ptr<StressUpdate> update_stress_;

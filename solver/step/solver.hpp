@@ -24,12 +24,12 @@ class Solver final : public Simulation {
   [[nodiscard]] const Particles& particles() const override { return passes_.particles(); }
 
   [[nodiscard]] VectorField grid_field(const VectorField& points, double t) const override {
-    const Grid grid = passes_.mapped_grid(t);
+    const Grid& grid = passes_.mapped_grid(t);
     return field_at<Basis>(grid, grid.velocity, points);
   }
 
   [[nodiscard]] std::vector<Mat2> grid_gradient(const VectorField& points, double t) const override {
-    const Grid grid = passes_.mapped_grid(t);
+    const Grid& grid = passes_.mapped_grid(t);
     return gradient_at<Basis>(grid, grid.velocity, points);
   }
 

@@ -1,10 +1,13 @@
 #include "verification/flows/reference_store.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <future>
 #include <map>
 #include <mutex>
 #include <string>
+
+#include "reference/channel/steady_channel.hpp"
 
 namespace verification {
 
@@ -40,6 +43,22 @@ std::shared_ptr<const reference::ChannelSolution> channel_solution(const referen
     }
   }
   return future.get();
+}
+
+SteadyScales steady_scales(const reference::ChannelProblem& problem) {
+  static std::mutex mutex;
+  static std::map<std::string, SteadyScales> kept;
+  const std::string key = problem.describe_flow();
+  {
+    const std::scoped_lock lock(mutex);
+    if (const auto found = kept.find(key); found != kept.end()) return found->second;
+  }
+  const reference::SteadyChannel steady(problem.height, problem.body_acceleration, problem.plate_velocity,
+                                        problem.curve);
+  const reference::SteadyChannel before(problem.height, problem.initial_acceleration, 0, problem.curve);
+  const SteadyScales scales{std::max(steady.maximum(), before.maximum()), steady.mid_height_velocity()};
+  const std::scoped_lock lock(mutex);
+  return kept.try_emplace(key, scales).first->second;
 }
 
 }  // namespace verification

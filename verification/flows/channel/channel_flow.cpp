@@ -101,12 +101,9 @@ std::shared_ptr<const ExactField> steady_nodes_field(int axis, double height, st
 }
 
 ChannelFlow::ChannelFlow(const ChannelParameters& parameters) : parameters_(parameters) {
-  const reference::SteadyChannel steady(parameters.height, parameters.body_acceleration,
-                                        parameters.plate_velocity, parameters.fluid.curve);
-  const reference::SteadyChannel before(parameters.height, parameters.initial_acceleration, 0,
-                                        parameters.fluid.curve);
-  steady_maximum_ = std::max(steady.maximum(), before.maximum());
-  steady_mid_height_ = steady.mid_height_velocity();
+  const SteadyScales scales = steady_scales(problem({}));
+  steady_maximum_ = scales.maximum;
+  steady_mid_height_ = scales.mid_height;
 }
 
 mpm::Scene ChannelFlow::scene(const Discretisation& d) const {
