@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
+#include <string_view>
 
 namespace reports {
 
@@ -72,12 +72,12 @@ bool completed(const RunRecord& run) {
 }
 
 double wall_time_of(const Results& results, const std::string& study) {
-  std::map<std::string, std::string> study_of;
-  for (const RunRecord& run : results.runs) study_of[run.run] = run.study;
+  std::set<std::string_view> runs;
+  for (const RunRecord& run : results.runs)
+    if (run.study == study) runs.insert(run.run);
   double sum = std::numeric_limits<double>::quiet_NaN();
   for (const TimingRecord& timing : results.timings) {
-    const auto run = study_of.find(timing.run);
-    if (run == study_of.end() || run->second != study || !std::isfinite(timing.wall_s)) continue;
+    if (!std::isfinite(timing.wall_s) || !runs.contains(timing.run)) continue;
     sum = (std::isnan(sum) ? 0 : sum) + timing.wall_s;
   }
   return sum;

@@ -25,6 +25,7 @@ struct Choice {
 
 std::vector<Choice> choices(const Results& results) {
   std::vector<Choice> found;
+  if (results.time_steps.empty()) return found;
   std::map<std::string, double> work_of;
   for (const RunRecord& run : results.runs)
     work_of[run.run] = static_cast<double>(run.particles) * static_cast<double>(run.steps);
