@@ -94,8 +94,7 @@ bool is_temporary(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, error))) return false;
   // NAME.PROCESS.SERIAL.tmp
   const std::filesystem::path serial = path.stem(), process = serial.stem();
-  return path.extension() == ".tmp" && ends_in_number(serial) && ends_in_number(process) &&
-         process.has_stem();
+  return path.extension() == ".tmp" && ends_in_number(serial) && ends_in_number(process);
 }
 
 void keep_file(const std::filesystem::path& path, std::string_view content) {

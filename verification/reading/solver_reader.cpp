@@ -31,16 +31,19 @@ std::vector<std::string> read_command(TomlTable& table, const std::string& key) 
   return command;
 }
 
+constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz";
 constexpr const char* letters_and_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
 
-/// Refuses what looks like a placeholder, {name}, and is none of those that are known.
+/// Refuses what looks like a placeholder, {name} with a letter first, and is none of those that are known.
+/// Other braces are somebody else's, such as those of a shell.
 void require_placeholders(const TomlTable& table, const std::string& key, const std::string& word,
                           const std::vector<std::string>& known) {
   for (std::size_t begin = word.find('{'); begin != std::string::npos; begin = word.find('{', begin + 1)) {
     const std::size_t end = word.find_first_not_of(letters_and_digits, begin + 1);
-    if (end == std::string::npos || word[end] != '}') continue;  // braces of somebody's shell
+    if (end == std::string::npos || word[end] != '}') continue;
+    if (word.find_first_of(letters, begin + 1) != begin + 1) continue;
     const std::string found = word.substr(begin, end + 1 - begin);
-    if (found.size() > 2 && std::ranges::count(known, found) == 0)
+    if (std::ranges::count(known, found) == 0)
       table.fail(key, fmt::format("'{}' is no placeholder; there are {}", found, fmt::join(known, " ")));
   }
 }

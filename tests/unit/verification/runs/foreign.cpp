@@ -95,6 +95,12 @@ TEST_CASE("a solver's table is read with care: no empty command, no misspelt pla
   check_refused(with_solver("command = []"), "command");
   check_refused(with_solver("command = \"solve {output}\""),
                 "'{output}' is no placeholder; there are {scene} {out}");
+  // What a placeholder's name cannot be is somebody else's: an argument of a shell, a brace that stays open.
+  for (const char* other : {"{1}", "{_}", "{-x}", "{}", "{out", "{a,b}", "{a b}"}) {
+    INFO(other);
+    CHECK_NOTHROW(read_study_text(with_solver("command = [\"solve\", \"" + std::string(other) + "\"]")));
+  }
+  check_refused(with_solver("command = \"solve {{output}\""), "'{output}' is no placeholder");
   check_refused(with_solver("command = \"a > b\""), "asks for a shell");
   check_refused(with_solver(plain, "", "repetitions = 2\n"), "a foreign solver is run once");
   check_refused(with_solver(plain + "\npoints_across = 4"), "points_reason");
