@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace verification {
@@ -25,9 +27,8 @@ Filling filling_of(const ColumnAtRest& column, std::size_t cell) {
   return filling;
 }
 
-}  // namespace
-
-std::function<double(const Vec2&)> density_at_rest(const ColumnAtRest& column, const mpm::Fluid& fluid) {
+/// Of the cells from the bottom up [kg/m3].
+std::vector<double> densities_of_cells(const ColumnAtRest& column, const mpm::Fluid& fluid) {
   const double h = column.cell_size, rho_0 = fluid.density, k = fluid.bulk_modulus;
   const auto cells = static_cast<std::size_t>(std::ceil(column.surface / h));
   std::vector<double> density(cells, rho_0);
@@ -48,9 +49,21 @@ std::function<double(const Vec2&)> density_at_rest(const ColumnAtRest& column, c
     density[c] = rho_0 * r;
     above = k * (std::pow(r, 7) - 1) * filling.volume + weight * r * filling.to_lower;
   }
-  return [density, h](const Vec2& x) {
-    const auto cell = static_cast<std::size_t>(std::max(0.0, std::floor(x.y() / h)));
-    return density[std::min(cell, density.size() - 1)];
+  return density;
+}
+
+}  // namespace
+
+std::function<double(const Vec2&)> density_at_rest(const ColumnAtRest& column, const mpm::Fluid& fluid) {
+  // Found when the first particle asks: a scene is read, and refused if it is too large, before it is seeded.
+  struct Densities {
+    std::once_flag found;
+    std::vector<double> of_cells;
+  };
+  return [column, fluid, densities = std::make_shared<Densities>()](const Vec2& x) {
+    std::call_once(densities->found, [&] { densities->of_cells = densities_of_cells(column, fluid); });
+    const auto cell = static_cast<std::size_t>(std::max(0.0, std::floor(x.y() / column.cell_size)));
+    return densities->of_cells[std::min(cell, densities->of_cells.size() - 1)];
   };
 }
 
