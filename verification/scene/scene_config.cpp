@@ -241,6 +241,11 @@ SceneConfig read_scene_config(TomlTable root, SceneFor whose) {
     root.fail("scene", error.what());
   }
   require_memory(root, config);
+  try {
+    static_cast<void>(config.particles());  // with a free surface they are counted: there may be none
+  } catch (const mpm::SceneError& error) {
+    root.fail("scene.fluid_region", error.what());
+  }
   if (config.start > 0 && config.scene.initial_density &&
       !config.flow->exact({config.start})->density(Vec2::Zero(), config.start))
     time.fail("start", "is for flows whose density is known at any time: this one starts at t = 0 only");
