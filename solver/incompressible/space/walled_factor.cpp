@@ -1,11 +1,46 @@
 #include "solver/incompressible/space/walled_factor.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_errno.h>
+
 #include <limits>
+#include <memory>
 
 #include "solver/incompressible/space/exact_mass.hpp"
 
 namespace mpm::incompressible {
+namespace {
+
+struct GeneralisedModes {
+  VectorXd eigenvalues;
+  MatrixXd eigenvectors;  // a column each
+};
+
+/// Of a q = lambda m q, both matrices symmetric, q^T m q = 1, in ascending order. GSL, not Eigen, whose
+/// solver takes ten seconds to compile.
+/// @throws SceneError where m is not positive definite.
+GeneralisedModes generalised_modes(MatrixXd a, const MatrixXd& mass) {
+  MatrixXd m = mass;  // both are worked on in place
+  const auto n = static_cast<std::size_t>(a.rows());
+  GeneralisedModes modes{VectorXd(a.rows()), MatrixXd(a.rows(), a.rows())};
+  // Rows are columns there: the same for what is symmetric, turned round for the vectors.
+  gsl_matrix_view of_a = gsl_matrix_view_array(a.data(), n, n), of_m = gsl_matrix_view_array(m.data(), n, n),
+                  vectors = gsl_matrix_view_array(modes.eigenvectors.data(), n, n);
+  gsl_vector_view values = gsl_vector_view_array(modes.eigenvalues.data(), n);
+  const std::unique_ptr<gsl_eigen_gensymmv_workspace, decltype(&gsl_eigen_gensymmv_free)> room(
+      gsl_eigen_gensymmv_alloc(n), &gsl_eigen_gensymmv_free);
+  gsl_set_error_handler_off();  // it would end the program
+  if (gsl_eigen_gensymmv(&of_a.matrix, &of_m.matrix, &values.vector, &vectors.matrix, room.get()) !=
+      GSL_SUCCESS)
+    throw SceneError("the mass of this grid could not be factorised");
+  gsl_eigen_gensymmv_sort(&values.vector, &vectors.matrix, GSL_EIGEN_SORT_VAL_ASC);
+  modes.eigenvectors.transposeInPlace();
+  const VectorXd square = (mass * modes.eigenvectors).cwiseProduct(modes.eigenvectors).colwise().sum();
+  modes.eigenvectors *= square.cwiseSqrt().cwiseInverse().asDiagonal();
+  return modes;
+}
+
+}  // namespace
 
 WalledFactor::Modes WalledFactor::modes(const SplineAxis& axis, const std::optional<Diffusion>& diffusion,
                                         int a) {
@@ -17,12 +52,10 @@ WalledFactor::Modes WalledFactor::modes(const SplineAxis& axis, const std::optio
     const SparseMatrix held = diffusion->held[static_cast<std::size_t>(a)] * slopes;
     all += diffusion->area * MatrixXd(SparseMatrix(slopes.transpose() * held));
   }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(all, mass);
-  if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[0] > 0))
-    throw SceneError("the mass of this grid could not be factorised");
-  const MatrixXd& q = eigen.eigenvectors();
+  const auto [lambda, q] = generalised_modes(all, mass);
+  if (!(lambda[0] > 0)) throw SceneError("the mass of this grid could not be factorised");
   return {ModeProducts::zero_padded(q), ModeProducts::zero_padded(q.transpose()),
-          ModeProducts::zero_padded(q.transpose() * stiffness * q), eigen.eigenvalues()};
+          ModeProducts::zero_padded(q.transpose() * stiffness * q), lambda};
 }
 
 WalledFactor::WalledFactor(const VelocitySpace& space, const std::optional<Diffusion>& diffusion)

@@ -1,4 +1,4 @@
-#include "reference/vortices/cavity_finite_volumes.hpp"
+#include "reference/cavity/cavity_finite_volumes.hpp"
 
 #include <algorithm>
 #include <cmath>

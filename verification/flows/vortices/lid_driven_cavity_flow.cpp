@@ -10,7 +10,7 @@
 #include <mutex>
 
 #include "reference/cavity/benchmark_fluids.hpp"
-#include "reference/vortices/cavity_finite_volumes.hpp"
+#include "reference/cavity/cavity_finite_volumes.hpp"
 #include "reference/vortices/smooth_cavity.hpp"
 #include "verification/flows/vortices/cavity_tables.hpp"
 

@@ -10,7 +10,7 @@ namespace verification {
 /// The square cavity [0, L]^2 whose lid, y = L, moves along x with U from t = 0. The steady flow is known at
 /// the points of published tables alone, one component at each: there grid velocities are compared. For some
 /// other than Newtonian fluids the tables are this project's (cavity_tables.hpp); of any other it is computed
-/// there (reference/vortices/cavity_finite_volumes.hpp). A smooth lid
+/// there (reference/cavity/cavity_finite_volumes.hpp). A smooth lid
 /// moves with 16 U (x/L)^2 (1 - x/L)^2: the steady flow of a Newtonian fluid is then known everywhere
 /// (reference/vortices/smooth_cavity.hpp).
 struct LidDrivenCavityParameters {

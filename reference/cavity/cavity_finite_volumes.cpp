@@ -1,4 +1,4 @@
-#include "reference/vortices/cavity_finite_volumes.hpp"
+#include "reference/cavity/cavity_finite_volumes.hpp"
 
 #include <Eigen/Sparse>
 #include <Eigen/SparseLU>
