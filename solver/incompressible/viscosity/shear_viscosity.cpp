@@ -7,7 +7,6 @@ namespace mpm::incompressible {
 namespace {
 
 constexpr double contraction = 0.25, slow_contraction = 0.6;
-constexpr int most_iterations = 200;
 
 }  // namespace
 

@@ -40,6 +40,7 @@ class ShearViscosity : public Viscosity {
 
   // Round-off in the residual, amplified by the condition of M + a N, leaves a few 1e-13.
   static constexpr double tolerance = 1e-11;
+  static constexpr int most_iterations = 200;
 
   struct Tangent {
     double rate;   // d u_t/dn [1/s]

@@ -7,8 +7,6 @@
 namespace mpm::incompressible {
 namespace {
 
-constexpr double penalty = 6;  // times k/h
-
 /// Integral of every function of degree k times the share of its velocity with which a wall moves [m].
 VectorXd moved(const SplineAxis& axis, const std::function<double(double)>& share) {
   if (!share) return axis.integrals(0);
@@ -40,7 +38,7 @@ AtWall at_wall(const SplineAxis& axis, int end, double slip_length) {
     return wall;
   }
   const VectorXd b = end == 0 ? VectorXd(-slope) : slope;  // along the outward normal
-  const double c = penalty * axis.degree() / axis.cell_size();
+  const double c = wall_penalty * axis.degree() / axis.cell_size();
   wall.matrix = MatrixXd(c * a * a.transpose() - a * b.transpose() - b * a.transpose()).sparseView();
   wall.load = c * a - b;
   return wall;

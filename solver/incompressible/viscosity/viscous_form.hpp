@@ -5,6 +5,9 @@
 
 namespace mpm::incompressible {
 
+/// Of Nitsche's method, times k/h: what holds a velocity to a wall's.
+constexpr double wall_penalty = 6;
+
 /// Viscosity of a Newtonian fluid in weak form, integral of grad u : grad w, over the unknowns of a velocity
 /// space. What sticks to a wall is held there by Nitsche's method with the penalty 6 k/h, which disarms the
 /// corners of a cavity (the tangential velocity may miss the wall's by an error of the method's order); a

@@ -7,8 +7,6 @@
 namespace mpm::incompressible {
 namespace {
 
-constexpr double penalty = 6;  // times k/h, as ViscousForm
-
 /// The functions of an axis at a place: values, first and second derivatives.
 struct Line {
   int cell;
@@ -44,7 +42,7 @@ std::vector<WallSite> wall_sites(const Scene& scene, const VelocitySpace& space,
       if (std::isinf(side.slip_length)) continue;
       const Line wall = line(axis, end == 0 ? 0 : axis.cells() - 1, end, 1);
       const double holds =
-          side.slip_length > 0 ? 1 / side.slip_length : penalty * axis.degree() / axis.cell_size();
+          side.slip_length > 0 ? 1 / side.slip_length : wall_penalty * axis.degree() / axis.cell_size();
       for (const Line& on : lines) {
         const Line &x = across == 0 ? wall : on, &y = across == 0 ? on : wall;
         const WallSite::Block along = across == 0 ? WallSite::Block(-x.slope * y.value.transpose())

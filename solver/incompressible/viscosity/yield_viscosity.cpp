@@ -8,7 +8,6 @@
 namespace mpm::incompressible {
 namespace {
 
-constexpr int most_iterations = 200;
 constexpr double rate_tolerance = 1e-11;  // of the largest rate
 constexpr double round_off = 1e-8;        // as YieldNewton
 
