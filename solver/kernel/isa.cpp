@@ -15,6 +15,7 @@ std::unique_ptr<PlaneKernel> make_plane_kernel(const PlaneSetup& setup);
 std::unique_ptr<SiteKernel> make_site_kernel(const SiteSetup& setup);
 void flow_curve(const Rheology& fluid, int count, const double* gdot_squared, double* viscosity);
 void dense_product(int rows, int inner, int columns, const double* a, const double* b, double* c);
+sph::PairLoops pair_loops();
 }  // namespace baseline
 #ifdef MPM_KERNEL_AVX2
 namespace avx2 {
@@ -24,6 +25,7 @@ std::unique_ptr<PlaneKernel> make_plane_kernel(const PlaneSetup& setup);
 std::unique_ptr<SiteKernel> make_site_kernel(const SiteSetup& setup);
 void flow_curve(const Rheology& fluid, int count, const double* gdot_squared, double* viscosity);
 void dense_product(int rows, int inner, int columns, const double* a, const double* b, double* c);
+sph::PairLoops pair_loops();
 }  // namespace avx2
 #endif
 #ifdef MPM_KERNEL_AVX512
@@ -34,6 +36,7 @@ std::unique_ptr<PlaneKernel> make_plane_kernel(const PlaneSetup& setup);
 std::unique_ptr<SiteKernel> make_site_kernel(const SiteSetup& setup);
 void flow_curve(const Rheology& fluid, int count, const double* gdot_squared, double* viscosity);
 void dense_product(int rows, int inner, int columns, const double* a, const double* b, double* c);
+sph::PairLoops pair_loops();
 }  // namespace avx512
 #endif
 
@@ -47,23 +50,25 @@ struct Isa {
   std::unique_ptr<SiteKernel> (*make_sites)(const SiteSetup&);
   FlowCurve curve;
   DenseProduct multiply;
+  sph::PairLoops (*loops)();
 };
 
 std::vector<Isa> isas() {
   std::vector<Isa> found{{"baseline", baseline::make_kernel, baseline::make_full_mass_kernel,
                           baseline::make_plane_kernel, baseline::make_site_kernel, baseline::flow_curve,
-                          baseline::dense_product}};
+                          baseline::dense_product, baseline::pair_loops}};
 #ifdef MPM_KERNEL_AVX2
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
     found.push_back({"avx2", avx2::make_kernel, avx2::make_full_mass_kernel, avx2::make_plane_kernel,
-                     avx2::make_site_kernel, avx2::flow_curve, avx2::dense_product});
+                     avx2::make_site_kernel, avx2::flow_curve, avx2::dense_product, avx2::pair_loops});
 #endif
 #ifdef MPM_KERNEL_AVX512
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
       __builtin_cpu_supports("avx512vl"))
     found.push_back({"avx512", avx512::make_kernel, avx512::make_full_mass_kernel, avx512::make_plane_kernel,
-                     avx512::make_site_kernel, avx512::flow_curve, avx512::dense_product});
+                     avx512::make_site_kernel, avx512::flow_curve, avx512::dense_product,
+                     avx512::pair_loops});
 #endif
   return found;
 }
@@ -146,6 +151,10 @@ FlowCurve flow_curve() {
 
 DenseProduct dense_product() {
   return current().multiply;
+}
+
+sph::PairLoops sph::pair_loops() {
+  return current().loops();
 }
 
 }  // namespace mpm

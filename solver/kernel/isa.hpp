@@ -9,6 +9,7 @@
 #include "solver/kernel/dense_product.hpp"
 #include "solver/kernel/full_mass/full_mass_kernel.hpp"
 #include "solver/kernel/kernel.hpp"
+#include "solver/sph/pairs/pair_loops.hpp"
 
 namespace mpm {
 
@@ -35,5 +36,8 @@ std::unique_ptr<PlaneKernel> make_plane_kernel(const PlaneSetup& setup);
 std::unique_ptr<SiteKernel> make_site_kernel(const SiteSetup& setup);
 FlowCurve flow_curve();
 DenseProduct dense_product();
+namespace sph {
+PairLoops pair_loops();
+}
 
 }  // namespace mpm

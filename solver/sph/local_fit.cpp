@@ -22,20 +22,22 @@ bool solve(const Matrix& normal, const Sides& right, Sides& coefficients) {
 
 }  // namespace
 
-LocalFit fit_at(const Vec2& point, const std::vector<Neighbour>& entries, std::size_t end,
-                const NeighbourList& list, const SmoothingKernel& kernel) {
+LocalFit fit_at(const Vec2& point, const Entries& entries, const EntryRows& rows, double reach,
+                bool with_walls, const SmoothingKernel& kernel) {
   Matrix normal = Matrix::Zero();
   Sides right = Sides::Zero(), coefficients = Sides::Zero();
   const double scale = 1 / kernel.radius;
-  list.around(point, [&](std::uint32_t e) {
-    if (e >= end) return;
-    const Vec2 d = scale * (entries[e].position - point);
-    const double weight = kernel.weight((entries[e].position - point).squaredNorm());
+  const auto add = [&](std::uint32_t slot) {
+    const Vec2 away = Vec2(entries.position[0][slot], entries.position[1][slot]) - point, d = scale * away;
+    const double weight = kernel.weight(away.squaredNorm());
     if (weight == 0) return;
     const Eigen::Matrix<double, terms, 1> base{1, d.x(), d.y(), d.x() * d.x(), d.x() * d.y(), d.y() * d.y()};
+    const Vec2 velocity(entries.velocity[0][slot], entries.velocity[1][slot]);
     normal += weight * base * base.transpose();
-    right += weight * base * entries[e].velocity.transpose();
-  });
+    right += weight * base * velocity.transpose();
+  };
+  rows.around(EntryRows::Kind::Inner, point, reach, add);
+  if (with_walls) rows.around(EntryRows::Kind::Wall, point, reach, add);
   if (!(normal(0, 0) > 0)) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     return {Vec2(nan, nan), Mat2::Constant(nan)};

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "solver/linear_algebra.hpp"
-#include "solver/sph/neighbour_list.hpp"
+#include "solver/sph/pairs/entries.hpp"
+#include "solver/sph/pairs/entry_rows.hpp"
 #include "solver/sph/smoothing_kernel.hpp"
 
 namespace mpm::sph {
@@ -14,8 +15,9 @@ struct LocalFit {
   Mat2 gradient;  ///< L_ab = d v_a/d x_b [1/s]
 };
 
-/// Only the entries in [0, end) take part.
-LocalFit fit_at(const Vec2& point, const std::vector<Neighbour>& entries, std::size_t end,
-                const NeighbourList& list, const SmoothingKernel& kernel);
+/// `reach` [m]: the kernel's, and how far entries have moved since their rows were built. Those that belong
+/// to walls take part if asked for.
+LocalFit fit_at(const Vec2& point, const Entries& entries, const EntryRows& rows, double reach,
+                bool with_walls, const SmoothingKernel& kernel);
 
 }  // namespace mpm::sph

@@ -1,10 +1,8 @@
 #include "solver/sph/make_sph_solver.hpp"
 
-#include <variant>
-
 #include "solver/kernel/isa.hpp"
-#include "solver/material/pressure.hpp"
 #include "solver/sph/sph_solver.hpp"
+#include "solver/sph/stable_sph_step.hpp"
 
 namespace mpm {
 
@@ -16,14 +14,7 @@ std::unique_ptr<Simulation> make_sph_solver(const Scene& scene, const SphScheme&
     if (rule != Seeding::Rule::Even)
       throw SceneError("SPH takes particles of equal mass: seeding must be even");
   require_sph_fits(scheme, scene);
-  return std::visit(
-      [&]<class Law>(const Law& law) -> std::unique_ptr<Simulation> {
-        if (scene.fluid.pressure)
-          return std::make_unique<sph::SphSolver<Law, TaitPressure>>(
-              scene, scheme, law, TaitPressure{scene.fluid.bulk_modulus, 1 / scene.fluid.density}, threads);
-        return std::make_unique<sph::SphSolver<Law, NoPressure>>(scene, scheme, law, NoPressure{}, threads);
-      },
-      scene.fluid.rheology);
+  return std::make_unique<sph::SphSolver>(scene, scheme, threads);
 }
 
 }  // namespace mpm

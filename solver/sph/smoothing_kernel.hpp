@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "solver/sph/pairs/pair_loops.hpp"
 #include "solver/sph/sph_scheme.hpp"
 
 namespace mpm::sph {
@@ -42,6 +43,9 @@ class RadialTable {
     return point.value + (place - k) * point.difference;
   }
 
+  /// For the vector loops: valid as long as the table.
+  [[nodiscard]] RadialPoints points() const { return {scale_, intervals, &points_.front().value}; }
+
   void multiply(double factor) {
     for (Point& point : points_) point = {factor * point.value, factor * point.difference};
   }
@@ -50,6 +54,7 @@ class RadialTable {
   struct Point {
     double value = 0, difference = 0;
   };
+  static_assert(sizeof(Point) == 2 * sizeof(double));
   double scale_;
   std::vector<Point> points_;
 };

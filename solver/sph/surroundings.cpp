@@ -28,7 +28,7 @@ void Surroundings::add_images(std::vector<Image>& to, const Image& of, const Vec
                               int axis) const {
   const auto a = static_cast<std::size_t>(axis);
   const double length = scene_.size[axis];
-  const double x = of.sign[a] * fluid[of.source][axis] + of.shift[axis];
+  const double x = (of.mirror[a] ? -1 : 1) * fluid[of.source][axis] + of.shift[axis];
   if (scene_.periodic(axis)) {
     for (const int direction : {-1, 1})
       for (int times = 1;; ++times) {
@@ -40,10 +40,11 @@ void Surroundings::add_images(std::vector<Image>& to, const Image& of, const Vec
     return;
   }
   if (walls_ == SphScheme::Wall::Morris) return;
-  for (const double wall : {0.0, length}) {
+  for (const std::uint8_t mirror : {1, 2}) {
+    const double wall = mirror == 1 ? 0 : length;
     if (std::abs(x - wall) > band_) continue;
     to.push_back(of);
-    to.back().sign[a] = static_cast<std::int8_t>(-of.sign[a]);
+    to.back().mirror[a] = mirror;
     to.back().shift[axis] = 2 * wall - of.shift[axis];
   }
 }
@@ -52,13 +53,13 @@ void Surroundings::rebuild(const VectorField& fluid) {
   fluid_ = fluid.size();
   std::vector<Image> along_x, all;
   for (std::size_t p = 0; p < fluid.size(); ++p)
-    add_images(along_x, {static_cast<std::uint32_t>(p), {1, 1}, Vec2::Zero()}, fluid, 0);
+    add_images(along_x, {static_cast<std::uint32_t>(p), {0, 0}, Vec2::Zero()}, fluid, 0);
   all = along_x;
   for (std::size_t p = 0; p < fluid.size(); ++p)
-    add_images(all, {static_cast<std::uint32_t>(p), {1, 1}, Vec2::Zero()}, fluid, 1);
+    add_images(all, {static_cast<std::uint32_t>(p), {0, 0}, Vec2::Zero()}, fluid, 1);
   for (const Image& image : along_x) add_images(all, image, fluid, 1);
   images_.clear();
-  const auto behind_wall = [](const Image& image) { return image.sign[0] < 0 || image.sign[1] < 0; };
+  const auto behind_wall = [](const Image& image) { return image.mirror[0] || image.mirror[1]; };
   for (const Image& image : all)
     if (!behind_wall(image)) images_.push_back(image);
   wall_begin_ = fluid_ + images_.size();
@@ -66,52 +67,105 @@ void Surroundings::rebuild(const VectorField& fluid) {
     if (behind_wall(image)) images_.push_back(image);
 }
 
-void Surroundings::fill(std::vector<Neighbour>& entries, double t, const Vec2& gravity) const {
-  std::array<Vec2, 4> wall_velocity, rise;
-  for (std::size_t e = 0; e < 4; ++e) {
-    const Side& side = scene_.sides[e];
-    wall_velocity[e] = side.periodic ? Vec2(Vec2::Zero()) : side.velocity(t);
-    rise[e] = side.periodic ? gravity : Vec2(gravity - side.acceleration(t));
+VectorField Surroundings::positions(const VectorField& fluid) const {
+  VectorField all = fluid;
+  all.reserve(size());
+  for (const Image& image : images_) {
+    const Vec2& x = fluid[image.source];
+    all.emplace_back(image.shift.x() + (image.mirror[0] ? -x.x() : x.x()),
+                     image.shift.y() + (image.mirror[1] ? -x.y() : x.y()));
   }
-  for (std::size_t k = 0; k < images_.size(); ++k) {
-    const Image& image = images_[k];
-    const Neighbour& source = entries[image.source];
-    Neighbour copy = source;
-    for (const int axis : {0, 1}) {
-      const auto a = static_cast<std::size_t>(axis);
-      copy.position[axis] = image.sign[a] * source.position[axis] + image.shift[axis];
-      if (image.sign[a] > 0) continue;
-      const std::size_t edge = 2 * a + (copy.position[axis] > 0 ? 1 : 0);
-      copy.velocity = 2 * wall_velocity[edge] - copy.velocity;
-      // dP/dn = rho (g - dV/dt)_n on the wall, so that fluid at rest under gravity stays there
-      copy.pressure_term +=
-          source.inverse_density * rise[edge][axis] * (copy.position[axis] - source.position[axis]);
-    }
-    entries[fluid_ + k] = copy;
-  }
+  for (const Fixed& fixed : fixed_) all.push_back(fixed.position);
+  return all;
+}
+
+void Surroundings::settle(Entries& entries, std::span<const std::uint32_t> slots) const {
+  for (std::size_t k = 0; k < images_.size(); ++k)
+    entries.mass[slots[fluid_ + k]] = entries.mass[slots[images_[k].source]];
+  const Vec2 spacing(scene_.cell_size(0) / scene_.particles_per_cell[0],
+                     scene_.cell_size(1) / scene_.particles_per_cell[1]);
   for (std::size_t k = 0; k < fixed_.size(); ++k) {
-    Neighbour& entry = entries[fluid_ + images_.size() + k];
-    const Vec2 spacing(scene_.cell_size(0) / scene_.particles_per_cell[0],
-                       scene_.cell_size(1) / scene_.particles_per_cell[1]);
-    const double mass = scene_.fluid.density * spacing.x() * spacing.y();
-    entry = {fixed_[k].position,
-             wall_velocity[static_cast<std::size_t>(fixed_[k].edge)],
-             mass,
-             0,
-             1 / scene_.fluid.density,
-             0};
+    const Fixed& fixed = fixed_[k];
+    const std::size_t slot = slots[fluid_ + images_.size() + k];
+    const auto edge = static_cast<int>(fixed.edge);
+    const int axis = edge / 2;
+    const double inwards = edge % 2 == 0 ? 1 : -1;
+    for (const std::size_t a : {0, 1}) entries.position[a][slot] = fixed.position[static_cast<int>(a)];
+    entries.mass[slot] = scene_.fluid.density * spacing.x() * spacing.y();
+    entries.inverse_density[slot] = 1 / scene_.fluid.density;
+    entries.wall_normal[axis][slot] = inwards;
+    entries.wall_offset[slot] = inwards < 0 ? scene_.size[axis] : 0;
+    entries.wall_depth[slot] = fixed.depth;
   }
 }
 
-void Surroundings::fill(std::vector<Mat2>& stress) const {
+void Surroundings::place(Entries& entries, std::span<const std::uint32_t> slots) const {
   for (std::size_t k = 0; k < images_.size(); ++k) {
     const Image& image = images_[k];
-    Mat2 copy = stress[image.source];
-    for (const int axis : {0, 1})
-      if (image.sign[static_cast<std::size_t>(axis)] < 0) copy.col(1 - axis) *= -1;  // v' = -v, d/dx' = -d/dx
-    stress[fluid_ + k] = copy;
+    const std::size_t from = slots[image.source], to = slots[fluid_ + k];
+    for (const std::size_t a : {0, 1}) {
+      const double x = entries.position[a][from];
+      entries.position[a][to] = image.shift[static_cast<int>(a)] + (image.mirror[a] ? -x : x);
+    }
   }
-  for (std::size_t k = 0; k < fixed_.size(); ++k) stress[fluid_ + images_.size() + k].setZero();
+}
+
+void Surroundings::carry(Entries& entries, std::span<const std::uint32_t> slots, double t) const {
+  std::array<Vec2, 4> wall_velocity;
+  for (std::size_t e = 0; e < 4; ++e)
+    wall_velocity[e] = scene_.sides[e].periodic ? Vec2(Vec2::Zero()) : scene_.sides[e].velocity(t);
+  std::array<std::array<Vec2, 3>, 3> added;  // by the mirrors along x and y
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      Vec2 v = i == 0 ? Vec2(Vec2::Zero()) : Vec2(2 * wall_velocity[i - 1]);
+      added[i][j] = j == 0 ? v : Vec2(2 * wall_velocity[1 + j] - v);
+    }
+  for (std::size_t k = 0; k < images_.size(); ++k) {
+    const auto [i, j] = images_[k].mirror;
+    const std::size_t from = slots[images_[k].source], to = slots[fluid_ + k];
+    const double turn = (i == 0) == (j == 0) ? 1 : -1;
+    for (const std::size_t a : {0, 1})
+      entries.velocity[a][to] = turn * entries.velocity[a][from] + added[i][j][static_cast<int>(a)];
+  }
+  for (std::size_t k = 0; k < fixed_.size(); ++k) {
+    const Vec2& v = wall_velocity[static_cast<std::size_t>(fixed_[k].edge)];
+    for (const std::size_t a : {0, 1})
+      entries.velocity[a][slots[fluid_ + images_.size() + k]] = v[static_cast<int>(a)];
+  }
+}
+
+void Surroundings::press(Entries& entries, std::span<const std::uint32_t> slots, double t,
+                         const Vec2& gravity) const {
+  // dP/dn = rho (g - dV/dt)_n on the wall, so that fluid at rest under gravity stays there
+  std::array<std::array<double, 3>, 2> rise{};
+  for (const int axis : {0, 1})
+    for (std::size_t mirror = 1; mirror < 3; ++mirror) {
+      const auto a = static_cast<std::size_t>(axis);
+      const Side& side = scene_.sides[2 * a + mirror - 1];
+      if (!side.periodic) rise[a][mirror] = (gravity - side.acceleration(t))[axis];
+    }
+  for (std::size_t k = 0; k < images_.size(); ++k) {
+    const auto& mirror = images_[k].mirror;
+    const std::size_t from = slots[images_[k].source], to = slots[fluid_ + k];
+    double work = 0;
+    for (const std::size_t a : {0, 1})
+      work += rise[a][mirror[a]] * (entries.position[a][to] - entries.position[a][from]);
+    entries.inverse_density[to] = entries.inverse_density[from];
+    entries.pressure_term[to] = entries.pressure_term[from] + entries.inverse_density[from] * work;
+  }
+}
+
+void Surroundings::strain(Entries& entries, std::span<const std::uint32_t> slots) const {
+  for (std::size_t k = 0; k < images_.size(); ++k) {
+    const Image& image = images_[k];
+    const std::size_t from = slots[image.source], to = slots[fluid_ + k];
+    entries.viscosity[to] = entries.viscosity[from];
+    for (const std::size_t component : {0, 1, 2, 3}) {  // v' = -v, d/dx' = -d/dx
+      const bool turns = image.mirror[1 - component % 2] != 0;
+      const double stress = entries.stress[component][from];
+      entries.stress[component][to] = turns ? -stress : stress;
+    }
+  }
 }
 
 /// The fluid's lattice continued behind the walls, and along periodic directions as far as anything is

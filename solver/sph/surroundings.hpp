@@ -2,22 +2,15 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/particles.hpp"
 #include "solver/scene/scene.hpp"
+#include "solver/sph/pairs/entries.hpp"
 #include "solver/sph/sph_scheme.hpp"
 
 namespace mpm::sph {
-
-/// What a pair loop reads of a neighbour: one cache line.
-struct alignas(64) Neighbour {
-  Vec2 position, velocity;
-  double mass;
-  double pressure_term;  ///< P/rho^2 [Pa m6/kg2]
-  double inverse_density;
-  double viscosity;  ///< dynamic [Pa s]
-};
 
 /// Whatever stands around the fluid, so that every neighbour of a particle is an entry of its own: copies
 /// across periodic sides, mirror images behind walls, or fixed wall particles. Entries are ordered: the fluid
@@ -34,34 +27,39 @@ class Surroundings {
   [[nodiscard]] std::size_t size() const { return fluid_ + images_.size() + fixed_.size(); }
   [[nodiscard]] std::size_t wall_begin() const { return wall_begin_; }
 
-  /// Writes the entries beyond the fluid from those of the fluid, at time t [s]. `gravity` [m/s2]: what a
-  /// mirrored pressure rises with across the wall.
-  void fill(std::vector<Neighbour>& entries, double t, const Vec2& gravity) const;
+  /// Where all entries are, with the fluid at these places [m].
+  [[nodiscard]] VectorField positions(const VectorField& fluid) const;
 
-  /// Writes mu grad v [Pa] of copies and images, from that of the fluid: no-slip mirrors turn the sign of
-  /// what varies along the wall. Fixed particles have none of their own.
-  void fill(std::vector<Mat2>& stress) const;
+  // What follows writes the entries beyond the fluid, from those of the fluid; `slots` are those of all
+  // entries.
 
+  /// Masses, and all that never changes of fixed wall particles.
+  void settle(Entries& entries, std::span<const std::uint32_t> slots) const;
+  void place(Entries& entries, std::span<const std::uint32_t> slots) const;
+  /// Velocities at time t [s].
+  void carry(Entries& entries, std::span<const std::uint32_t> slots, double t) const;
+  /// Densities and pressures. `gravity` [m/s2]: what a mirrored pressure rises with across the wall.
+  void press(Entries& entries, std::span<const std::uint32_t> slots, double t, const Vec2& gravity) const;
+  /// Viscosities and mu grad v: no-slip mirrors turn the sign of what varies along the wall. Fixed particles
+  /// have none of their own.
+  void strain(Entries& entries, std::span<const std::uint32_t> slots) const;
+
+  [[nodiscard]] bool has_fixed() const { return !fixed_.empty(); }
+
+ private:
   /// A fixed wall particle: where its wall is, and how far behind it.
   struct Fixed {
     Vec2 position;
     Edge edge;
     double depth;  ///< behind the plane of its wall [m]
   };
-  /// Fixed particle of an entry; only for entries of fixed walls.
-  [[nodiscard]] const Fixed& fixed(std::size_t entry) const {
-    return fixed_[entry - fluid_ - images_.size()];
-  }
-  [[nodiscard]] bool has_fixed() const { return !fixed_.empty(); }
-  /// Distance of a point from the plane of a wall [m], positive inside.
-  [[nodiscard]] double distance(const Vec2& x, Edge edge) const;
-
- private:
   struct Image {
     std::uint32_t source;
-    std::array<std::int8_t, 2> sign;  ///< -1 mirrored, along x, y
-    Vec2 shift;                       ///< image = sign * source + shift
+    std::array<std::uint8_t, 2> mirror;  ///< along x, y: 0 none, 1 the wall at 0, 2 the other one
+    Vec2 shift;                          ///< image = source + shift, or where it is mirrored shift - source
   };
+  /// Distance of a point from the plane of a wall [m], positive inside.
+  [[nodiscard]] double distance(const Vec2& x, Edge edge) const;
   void add_images(std::vector<Image>& to, const Image& of, const VectorField& fluid, int axis) const;
   [[nodiscard]] std::vector<Fixed> fixed_particles() const;
 
