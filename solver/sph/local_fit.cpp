@@ -11,12 +11,12 @@ using Matrix = Eigen::Matrix<double, terms, terms>;
 using Sides = Eigen::Matrix<double, terms, 2>;
 
 /// Solves for the first n terms; false where they are not determined.
-template <int n>
-bool solve(const Matrix& normal, const Sides& right, Sides& coefficients) {
-  const Eigen::LDLT<Eigen::Matrix<double, n, n>> factors(normal.topLeftCorner<n, n>());
+bool solve(Eigen::Index n, const Matrix& normal, const Sides& right, Sides& coefficients) {
+  using AnySize = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, terms, terms>;
+  const Eigen::LDLT<AnySize> factors(normal.topLeftCorner(n, n));  // one type for all n is compiled once
   const auto pivots = factors.vectorD();
   if (!(pivots.minCoeff() > 1e-10 * pivots.maxCoeff())) return false;
-  coefficients.topRows<n>() = factors.solve(right.topRows<n>());
+  coefficients.topRows(n) = factors.solve(right.topRows(n));
   return true;
 }
 
@@ -42,7 +42,7 @@ LocalFit fit_at(const Vec2& point, const Entries& entries, const EntryRows& rows
     const double nan = std::numeric_limits<double>::quiet_NaN();
     return {Vec2(nan, nan), Mat2::Constant(nan)};
   }
-  if (!solve<terms>(normal, right, coefficients) && !solve<3>(normal, right, coefficients))
+  if (!solve(terms, normal, right, coefficients) && !solve(3, normal, right, coefficients))
     coefficients.row(0) = right.row(0) / normal(0, 0);
   return {coefficients.row(0).transpose(), scale * coefficients.middleRows<2>(1).transpose()};
 }
