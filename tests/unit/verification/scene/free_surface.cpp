@@ -8,7 +8,7 @@ using namespace verification;
 namespace {
 
 SceneConfig read(double height) {
-  return read_scene_config(TomlTable::from_text(R"(title = "T"
+  return read_scene_config(TomlTable::from_text(R"(
 [scene]
 flow = "box"
 width = 1.0
