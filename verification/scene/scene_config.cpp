@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "solver/incompressible/make_incompressible_solver.hpp"
 #include "solver/scene/seeding.hpp"
@@ -237,7 +238,7 @@ SceneConfig read_scene_config(TomlTable root, SceneFor whose) {
     mpm::check_together(config.scene, config.scheme);
     if (is_sph) mpm::require_sph_fits(*config.sph, config.scene);
     if (incompressible && !theirs) mpm::require_incompressible_fits(*config.incompressible, config.scene);
-  } catch (const mpm::SceneError& error) {
+  } catch (const std::invalid_argument& error) {  // a SceneError, or what a reference refuses
     root.fail("scene", error.what());
   }
   require_memory(root, config);

@@ -47,3 +47,36 @@ TEST_CASE("a column at rest costs nothing before a particle asks: what is too la
   // Its cells would not fit into any memory.
   CHECK_NOTHROW(density_at_rest({1, 1, 1e-13, 2}, mpm::Fluid{}));
 }
+
+TEST_CASE("what the reference of a flow refuses is refused with the scene") {
+  const auto current = [](const std::string& index) {
+    return read_scene_config(TomlTable::from_text(R"(
+[scene]
+flow = "gravity-current"
+front = 4.0
+aspect_ratio = 4.0
+age = 1.0
+[fluid]
+model = "power-law"
+index = )" + index + R"(
+kinematic_viscosity = 1.27
+shear_rate_floor = 0.01
+largest_shear_rate = 60
+density = 1000.0
+bulk_modulus = 442432.3
+[discretisation]
+cells = 10
+cells_along = 56
+[scheme]
+dilatation = "cell"
+[time]
+dt = 1e-3
+outputs = [1.0]
+)",
+                                                  "current.toml"));
+  };
+  CHECK_NOTHROW(current("1.5"));
+  CHECK_THROWS_AS(current("1e9"), ConfigError);
+  CHECK_THROWS_WITH(current("1e9"), contains("current.toml"));
+  CHECK_THROWS_WITH(current("1e9"), contains("gravity must be positive"));
+}
