@@ -102,6 +102,8 @@ FlowPointer read_box(TomlTable& table, const FluidConfig& fluid) {
     if (!p.is_fluid || !fluid.solver.pressure || !(p.body_acceleration.y() < 0))
       table.fail("hydrostatic_surface",
                  "needs a [[scene.fluid_region]], fluid.pressure = true and a downward body_acceleration");
+    if (p.surface > p.size.y())
+      table.fail("hydrostatic_surface", "must lie in the box: scene.height at most");
   }
   p.fluid = fluid.solver;
   return std::make_shared<BoxFlow>(p);

@@ -7,7 +7,7 @@ using namespace verification;
 
 namespace {
 
-SceneConfig read(double height) {
+SceneConfig read(double height, const std::string& more = "") {
   return read_scene_config(TomlTable::from_text(R"(
 [scene]
 flow = "box"
@@ -16,6 +16,7 @@ height = )" + std::to_string(height) + R"(
 walls = { left = [0.0, 0.0], right = [0.0, 0.0], bottom = [0.0, 0.0], top = [0.0, 0.0] }
 body_acceleration = [0.0, -1.0]
 velocity_scale = 1.0
+)" + more + R"(
 [[scene.fluid_region]]
 rectangle = [0.0, 0.0, 1.0, 0.5]
 [fluid]
@@ -41,6 +42,13 @@ TEST_CASE("a region of fluid that holds no particle is refused with file and key
   CHECK_THROWS_AS(read(1000), ConfigError);
   CHECK_THROWS_WITH(read(1000), contains("surface.toml"));
   CHECK_THROWS_WITH(read(1000), contains("scene.fluid_region"));
+}
+
+TEST_CASE("the surface of a fluid at rest lies in its box") {
+  CHECK(read(1, "hydrostatic_surface = 0.5").particles() == 32);
+  CHECK_THROWS_AS(read(1e-30, "hydrostatic_surface = 0.5"),
+                  ConfigError);  // 2e30 cells of it under the surface
+  CHECK_THROWS_WITH(read(1, "hydrostatic_surface = 1.01"), contains("scene.hydrostatic_surface"));
 }
 
 TEST_CASE("a column at rest costs nothing before a particle asks: what is too large is refused first") {
