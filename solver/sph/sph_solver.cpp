@@ -87,8 +87,12 @@ void SphSolver::evaluate(double t, double dt) {
   const PairWork work = near_.work(gravity_);
   if (has_pressure_) find_density(work, t, dt);
   near_.carry(extrapolated_, t);
-  near_.press(
-      density_, [&](double density) { return has_pressure_ ? pressure_.pressure(density) : 0; }, t, gravity_);
+  if (has_pressure_)
+    near_.press(
+        density_, [&](double density) { return pressure_.pressure(density); }, t, gravity_);
+  else
+    near_.press(
+        density_, [](double) { return 0.0; }, t, gravity_);
   if (viscosity_.varies()) find_viscosities(work);
   const PairLoop loop = viscosity_.varies() ? loops_.find_acceleration_whole : loops_.find_acceleration;
   for_groups_with_slopes(work, [&](int first, int end) { loop(work, first, end); });
@@ -125,19 +129,20 @@ void SphSolver::find_viscosities(const PairWork& work) {
 }
 
 void SphSolver::take_acceleration(double t) {
-  if (scene_.acceleration_field) {
-    field_acceleration_.resize(size());
-    scene_.acceleration_field(position_, t, field_acceleration_);
-  }
   const PairSums& sums = near_.sums();
   force_ = Vec2::Zero();
   for (std::size_t p = 0; p < size(); ++p) {
     const std::size_t place = near_.windows().place(p);
-    Vec2 body = gravity_;
-    if (scene_.acceleration_field) body += field_acceleration_[p];
-    acceleration_[p] = Vec2(sums.acceleration[0][place], sums.acceleration[1][place]) + body;
+    acceleration_[p] = Vec2(sums.acceleration[0][place], sums.acceleration[1][place]) + gravity_;
     force_ += published_.mass[p] *
-              (body + Vec2(sums.wall_acceleration[0][place], sums.wall_acceleration[1][place]));
+              (gravity_ + Vec2(sums.wall_acceleration[0][place], sums.wall_acceleration[1][place]));
+  }
+  if (!scene_.acceleration_field) return;
+  field_acceleration_.resize(size());
+  scene_.acceleration_field(position_, t, field_acceleration_);
+  for (std::size_t p = 0; p < size(); ++p) {
+    acceleration_[p] += field_acceleration_[p];
+    force_ += published_.mass[p] * field_acceleration_[p];
   }
 }
 

@@ -12,8 +12,9 @@
 namespace mpm::sph {
 
 /// Smoothed particle hydrodynamics of a weakly compressible fluid (Morris, Fox & Zhu 1997), in the plane:
-///   dv_i/dt = - sum_j m_j (P_i/rho_i^2 + P_j/rho_j^2) F x_ij + sum_j m_j (mu_i + mu_j)/(rho_i rho_j) F v_ij
-///   + g drho_i/dt = sum_j m_j F x_ij . v_ij,  or  rho_i = sum_j m_j W
+///   dv_i/dt = - sum_j m_j (P_i/rho_i^2 + P_j/rho_j^2) F x_ij
+///             + sum_j m_j (mu_i + mu_j)/(rho_i rho_j) F v_ij + g,
+///   drho_i/dt = sum_j m_j F x_ij . v_ij,  or  rho_i = sum_j m_j W,
 /// with x_ij = x_i - x_j and F = W'(r)/r. (Morris' r^2/(r^2 + 0.01 h^2) guards a quotient that F does not
 /// have.) This viscous term is the divergence of mu grad v, all of it where viscosity is constant and the
 /// divergence zero. A viscosity that varies adds the rest of 2 mu (D - tr D/3),
@@ -54,7 +55,7 @@ class SphSolver final : public Simulation {
   void find_viscosities(const PairWork& work);
   void take_acceleration(double t);
 
-  /// loop(first group, end, share) for all groups, shared out in blocks of some 128 particles.
+  /// loop(first group, end) for all groups, shared out in blocks of some 128 particles.
   template <class Loop>
   void for_groups(const Loop& loop) {
     const int groups = static_cast<int>(near_.windows().groups().size()), block = 128 / loops_.lanes;

@@ -1,7 +1,6 @@
 #include "verification/stability/amplification.hpp"
 
 #include <gsl/gsl_eigen.h>
-#include <gsl/gsl_errno.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <memory>
 #include <numbers>
 
+#include "reference/gsl_quiet.hpp"
 #include "verification/config/config_error.hpp"
 
 namespace verification {
@@ -162,9 +162,9 @@ double largest_eigenvalue(const Amplification& matrix) {
   gsl_vector_complex_view of_values = gsl_vector_complex_view_array(values.data(), size);
   const std::unique_ptr<gsl_eigen_nonsymm_workspace, decltype(&gsl_eigen_nonsymm_free)> room(
       gsl_eigen_nonsymm_alloc(size), &gsl_eigen_nonsymm_free);
-  gsl_set_error_handler_off();  // it would end the program
+  reference::quiet_gsl();
   if (gsl_eigen_nonsymm(&of_matrix.matrix, &of_values.vector, room.get()) != GSL_SUCCESS)
-    return std::numeric_limits<double>::quiet_NaN();
+    return std::numeric_limits<double>::infinity();  // unknown: no step may count as stable by it
   double largest = 0;
   for (std::size_t k = 0; k < size; ++k)
     largest = std::max(largest, std::hypot(values[2 * k], values[2 * k + 1]));

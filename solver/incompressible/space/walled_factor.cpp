@@ -29,7 +29,8 @@ GeneralisedModes generalised_modes(MatrixXd a, const MatrixXd& mass) {
   gsl_vector_view values = gsl_vector_view_array(modes.eigenvalues.data(), n);
   const std::unique_ptr<gsl_eigen_gensymmv_workspace, decltype(&gsl_eigen_gensymmv_free)> room(
       gsl_eigen_gensymmv_alloc(n), &gsl_eigen_gensymmv_free);
-  gsl_set_error_handler_off();  // it would end the program
+  static gsl_error_handler_t* const would_end_the_program = gsl_set_error_handler_off();
+  static_cast<void>(would_end_the_program);
   if (gsl_eigen_gensymmv(&of_a.matrix, &of_m.matrix, &values.vector, &vectors.matrix, room.get()) !=
       GSL_SUCCESS)
     throw SceneError("the mass of this grid could not be factorised");

@@ -1,6 +1,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 
 #include "tests/catch.hpp"
@@ -140,4 +141,25 @@ TEST_CASE("below its limit the leapfrog with FLIP keeps every sound wave's ampli
   REQUIRE(g.rows() == 2);
   CHECK(std::abs(g.determinant()) == Approx(1).epsilon(1e-12));
   CHECK(spectral_radius(g) == Approx(1).epsilon(1e-9));
+}
+
+TEST_CASE("the spectral radius is the largest modulus of the eigenvalues that a matrix was made of") {
+  using namespace std::complex_literals;
+  // Unit triangular times diagonal times its inverse: eigenvalues as on the diagonal.
+  for (const Eigen::Index n : {1, 2, 3, 4, 6}) {
+    Eigen::MatrixXcd base = Eigen::MatrixXcd::Identity(n, n), inverse = base, values = base;
+    for (Eigen::Index k = 0; k < n; ++k) values(k, k) = (0.3 + 0.1 * double(k)) * std::exp(1i * double(k));
+    for (Eigen::Index k = 0; k + 1 < n; ++k) base(k, k + 1) = 0.5 - 0.25i;
+    for (Eigen::Index j = 1; j < n; ++j)
+      for (Eigen::Index i = 0; i < j; ++i)
+        inverse(i, j) = std::pow(-(0.5 - 0.25i), double(j - i));  // of the two diagonals above
+    const Eigen::MatrixXcd matrix = base * values * inverse;
+    // Triangular, with no eigenvalue close to another: round-off, some ten times.
+    CHECK(spectral_radius(matrix) == Approx(0.3 + 0.1 * double(n - 1)).epsilon(1e-14 * double(n)));
+    CHECK(spectral_radius(1i * matrix.transpose()) ==
+          Approx(0.3 + 0.1 * double(n - 1)).epsilon(1e-14 * double(n)));
+  }
+  Eigen::MatrixXcd unknown = Eigen::MatrixXcd::Identity(4, 4);
+  unknown(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(std::isinf(spectral_radius(unknown)));
 }
