@@ -189,3 +189,27 @@ TEST_CASE("SPH that blows up along a periodic axis says so", "[sph]") {
   simulation->advance(0, 1.0);
   REQUIRE(simulation->breakdown() == "a particle crossed the domain in one step");
 }
+
+TEST_CASE("SPH damps what moves along its own wave by nu, and by 4/3 nu with the whole stress", "[sph]") {
+  const double k = 2 * std::numbers::pi / height, dt = 1e-3 / (nu * k * k);
+  const auto damping = [&](const Rheology& rheology) {
+    Scene scene = box(32, 0, 1000 * nu);
+    scene.fluid.rheology = rheology;
+    scene.initial_velocity = [&](const Vec2& x) { return Vec2(1e-6 * std::sin(k * x.x()), 0); };
+    const auto simulation = make_sph_solver(scene, with_sph(), 1);
+    const auto amplitude = [&] {
+      double sum = 0;
+      const Particles& particles = simulation->particles();
+      for (std::size_t p = 0; p < particles.size(); ++p)
+        sum += particles.velocity[p].x() * std::sin(k * particles.position[p].x());
+      return sum;
+    };
+    const double before = amplitude();
+    simulation->advance(0, dt);
+    return std::log(before / amplitude()) / (nu * k * k * dt);
+  };
+  // 32 particles a wave: the sums miss some (2 pi/32)^2 of it.
+  CHECK(damping(Newtonian{1000 * nu}) == Approx(1).epsilon(0.04));
+  // The same viscosity, by a law that could vary.
+  CHECK(damping(Cross<SquareRoot>{1000 * nu, 500 * nu, 1e-9, {}}) == Approx(4.0 / 3).epsilon(0.04));
+}
