@@ -1,62 +1,40 @@
 #pragma once
 
 #include "solver/kernel/cell_dilatation.hpp"
-#include "solver/kernel/kernel_fluid.hpp"
-#include "solver/kernel/nodal_fields.hpp"
+#include "solver/kernel/kernel_state.hpp"
 #include "solver/kernel/node_sums.hpp"
 
 namespace mpm::MPM_ISA {
 
 /// The passes over particles and nodes, each particle loop in vectors of `width` cells.
 template <class Basis>
-class LaneKernel final : public Kernel {
+class LaneKernel final : public KernelState {
  public:
-  explicit LaneKernel(const KernelSetup& setup)
-      : cells_(setup, setup.axis[0].cells + setup.degree),
-        basis_{{setup.axis[0].inverse_h, setup.axis[1].inverse_h}, cells_.stride()},
-        fields_(fields_of(setup)),
-        fluid_(setup),
-        most_inverse_mass_(setup.most_inverse_mass),
-        shares_(static_cast<std::size_t>(setup.shares)) {
-    make_room();
-  }
-
-  NodeFields nodes() override {
-    const auto v = fields_.velocity(), w = fields_.mapped(), a = fields_.acceleration();
-    return {fields_.inverse_mass(), {v[0], v[1]}, {w[0], w[1]}, {a[0], a[1]}};
-  }
+  explicit LaneKernel(const KernelSetup& setup) : LaneKernel(setup, basis_of(setup)) {}
 
   /// P2G: m_i = sum_p N_ip m_p, v_i = sum_p N_ip m_p v_p / m_i (paper Eqs. 14-15).
   void map_velocity(const Part& part) override {
-    double* const m_i = fields_.inverse_mass();
-    const Pair v_i = fields_.velocity();
-    sum_momentum<true>(part, {m_i, v_i[0], v_i[1]});
-    fields_.each_node(part.complete, [=](int i, auto count) {
-      const Lanes m = load(m_i + i), one_over_m = select(m > 0, 1 / m, 0);
-      store_first(count, m_i + i, one_over_m);
-      for (double* v : v_i) store_first(count, v + i, load(v + i) * one_over_m);
-    });
+    const Pair v_i = fields().velocity();
+    sum_momentum<true>(part, {fields().inverse_mass(), v_i[0], v_i[1]});
+    divide_by_mass(part.complete);
   }
 
   void map_updated_velocity(const Part& part) override {
-    const Pair v_i = fields_.mapped();
-    sum_momentum<false>(part, v_i);
-    fields_.each_node(part.complete, [=, one_over_m = fields_.inverse_mass()](int i, auto count) {
-      for (double* v : v_i) store_first(count, v + i, load(v + i) * load(one_over_m + i));
-    });
+    sum_momentum<false>(part, fields().mapped());
+    divide_mapped(part.complete);
   }
 
   void update_stress(const Part& part, NodalVelocity from, double dt) override {
-    const Pair v_i = from == NodalVelocity::Current ? fields_.velocity() : fields_.mapped();
-    fluid_.with_stress<false>([&](const auto& pressure, const auto& stress_of) {
+    const Pair v_i = from == NodalVelocity::Current ? fields().velocity() : fields().mapped();
+    fluid().with_stress<false>([&](const auto& pressure, const auto& stress_of) {
       each_block(part.cells, [&](const Block& block) {
-        stress_of(strain<no_fetch>(block, part, v_i, dt, pressure), cells_.stresses(block).data());
+        stress_of(strain<no_fetch>(block, part, v_i, dt, pressure), cells().stresses(block).data());
       });
     });
   }
 
   void accelerate(const Part& part, const double b[2], double dt) override {
-    if (fluid_.has_cell_pressure())
+    if (fluid().has_cell_pressure())
       accelerate_with_stress<CellTaitPressure>(part);
     else
       accelerate_with_stress<TaitPressure>(part);
@@ -64,11 +42,11 @@ class LaneKernel final : public Kernel {
   }
 
   void update_stress_and_accelerate(const Part& part, const double b[2], double dt) override {
-    fluid_.with_stress<newtonian_is_inlined>(
+    fluid().with_stress<newtonian_is_inlined>(
         [&]<class Pressure>(const Pressure& pressure, const auto& stress_of) {
-          Stress* const room = shares_[static_cast<std::size_t>(part.share)].stress.data();
-          scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
-            const auto strained = strain<fetch_by_forces>(block, part, fields_.velocity(), dt, pressure);
+          Stress* const room = share(part).stress.data();
+          scatter<DivergenceSums<Basis>>(part, fields().acceleration(), [&](const Block& block, auto& sums) {
+            const auto strained = strain<fetch_by_forces>(block, part, fields().velocity(), dt, pressure);
             sum_forces<no_fetch, Pressure>(block, part, stress_of(strained, room), sums);
           });
         });
@@ -76,7 +54,7 @@ class LaneKernel final : public Kernel {
   }
 
   void take(const Part& part, double flip_fraction, double dt) override {
-    if (cells_.is_affine())
+    if (cells().is_affine())
       gather_from_nodes<Take::Affine, false>(part, 0, dt);
     else if (flip_fraction == 1)
       gather_from_nodes<Take::Flip, false>(part, 1, dt);
@@ -85,7 +63,7 @@ class LaneKernel final : public Kernel {
   }
   void move(const Part& part, double dt) override { gather_from_nodes<Take::Nothing, true>(part, 0, dt); }
   void take_and_move(const Part& part, double flip_fraction, double dt) override {
-    if (cells_.is_affine())
+    if (cells().is_affine())
       gather_from_nodes<Take::Affine, true>(part, 0, dt);
     else if (flip_fraction == 1)
       gather_from_nodes<Take::Flip, true>(part, 1, dt);
@@ -93,23 +71,13 @@ class LaneKernel final : public Kernel {
       gather_from_nodes<Take::Blend, true>(part, flip_fraction, dt);
   }
 
-  Motion settle() override {
-    Motion motion;
-    for (Share& share : shares_) {
-      motion.energy += sum(share.energy);
-      motion.dense &= !(share.least_volume < 0).any();
-      motion.inside &= cells_.rehouse(share.left);
-      share.left.clear();
-      share.energy = share.least_volume = 0;
-    }
-    make_room();
-    return motion;
+ private:
+  LaneKernel(const KernelSetup& setup, const Basis& basis)
+      : KernelState(setup, Basis::support[1], basis.offset(Basis::nodes - 1)), basis_(basis) {}
+  static Basis basis_of(const KernelSetup& setup) {
+    return {{setup.axis[0].inverse_h, setup.axis[1].inverse_h}, stride_of(setup)};
   }
 
-  void gather(PointState* points) const override { cells_.gather(points); }
-
- private:
-  using Pair = NodalFields::Pair;
   static constexpr bool newtonian_is_inlined = Basis::degree == 1;
 
   /// Part of a slot, in sixths of its size. The passes of a step share out what has to come from memory as
@@ -119,51 +87,21 @@ class LaneKernel final : public Kernel {
   };
   static constexpr Fetch no_fetch{0, 0}, fetch_by_forces{0, 4}, fetch_by_g2p{4, 2};
 
-  /// What belongs to a share of the cells alone, so that threads need not agree.
-  struct alignas(64) Share {
-    Lanes energy = 0, least_volume = 0;  // that its particles were found to have
-    std::vector<Mover> left;             // particles no longer in their cells
-    std::vector<Strained> strained;      // of one block at a time
-    std::vector<Stress> stress;          // the same
-  };
-
-  void make_room() {
-    bytes_a_cell_ = cells_.bytes_a_cell();
-    for (Share& share : shares_) {
-      share.strained.resize(cells_.most_slots());
-      share.stress.resize(cells_.most_slots());
-    }
-  }
-
-  [[nodiscard]] NodalFields fields_of(const KernelSetup& setup) const {
-    const auto& [along, across] = setup.axis;
-    const bool is_periodic_across = across.periodic && !setup.strip;
-    const int rows = across.cells + Basis::support[1] - 1;
-    // Blocks at the end read and write beyond the last node.
-    const int size =
-        std::max(rows * cells_.stride(), cells_.count()) + basis_.offset(Basis::nodes - 1) + 2 * width;
-    return {{along.cells, across.cells},
-            {along.periodic, is_periodic_across},
-            rows,
-            cells_.stride(),
-            static_cast<std::size_t>(size)};
-  }
-
   /// Nodal momenta, and masses before them, if asked for.
   template <bool with_mass>
   void sum_momentum(const Part& part, const std::array<double*, with_mass ? 3 : 2>& nodes) {
     const auto sum = [&](const auto& velocity_of) {
       scatter<MomentumSums<Basis, with_mass>>(part, nodes, [&](const Block& block, auto& sums) {
-        if (with_mass && part.ahead > 0) fields_.fetch(block.first_node + part.ahead);
+        if (with_mass && part.ahead > 0) fields().fetch(block.first_node + part.ahead);
         each_slot<no_fetch>(block, part, [&](int k, const Slot& p, const auto& n_p) {
           sums.add(n_p, p.mass, velocity_of(block, k, p, n_p));
         });
       });
     };
-    if (cells_.is_affine())
+    if (cells().is_affine())
       sum([&]<class Weights>(const Block& block, int k, const Slot& p, const Weights&) {
-        return AffineVelocity<Basis, Weights::is_uniform>(block, p,
-                                                          cells_.affines(block)[static_cast<std::size_t>(k)]);
+        return AffineVelocity<Basis, Weights::is_uniform>(
+            block, p, cells().affines(block)[static_cast<std::size_t>(k)]);
       });
     else
       sum([](const Block&, int, const Slot& p, const auto&) -> const auto& { return p.v; });
@@ -173,13 +111,13 @@ class LaneKernel final : public Kernel {
   template <Fetch fetch, class Pressure>
   std::span<const Strained> strain(const Block& block, const Part& part, const Pair& v_i, double dt,
                                    [[maybe_unused]] const Pressure& pressure) {
-    Share& share = shares_[static_cast<std::size_t>(part.share)];
-    Strained* const strained = share.strained.data();
+    Share& of_part = share(part);
+    Strained* const strained = of_part.strained.data();
     const CellVelocityGradient<Basis> grad_v(basis_, block, v_i);
     Lanes least_volume = 0;
     [[maybe_unused]] CellStrain of_cell{0, 0};
     if constexpr (Pressure::is_of_cell)
-      of_cell = strain_cells(basis_, block, cells_.slots(block), grad_v, dt, pressure, least_volume);
+      of_cell = strain_cells(basis_, block, cells().slots(block), grad_v, dt, pressure, least_volume);
     const auto strain_slot = [&](int k, Slot& p, const auto& n_p) {
       const auto [d_00, d_01] = grad_v[0].at(n_p);
       const auto [d_10, d_11] = grad_v[1].at(n_p);
@@ -194,8 +132,8 @@ class LaneKernel final : public Kernel {
       }
     };
     each_slot<fetch>(block, part, strain_slot);
-    share.least_volume = least(share.least_volume, least_volume);
-    return {strained, cells_.slots(block).size()};
+    of_part.least_volume = least(of_part.least_volume, least_volume);
+    return {strained, cells().slots(block).size()};
   }
 
   /// What the slots of a block give to the nodes of their cells: -V_p sigma_p grad N_ip is a particle's share
@@ -213,26 +151,11 @@ class LaneKernel final : public Kernel {
   /// f_i of the stress that the particles have.
   template <class Pressure>
   void accelerate_with_stress(const Part& part) {
-    scatter<DivergenceSums<Basis>>(part, fields_.acceleration(), [&](const Block& block, auto& sums) {
-      const auto stress_at = [stress = cells_.stresses(block).data()](std::size_t k, Lanes factor) {
+    scatter<DivergenceSums<Basis>>(part, fields().acceleration(), [&](const Block& block, auto& sums) {
+      const auto stress_at = [stress = cells().stresses(block).data()](std::size_t k, Lanes factor) {
         return factor * stress[k];
       };
       sum_forces<fetch_by_forces, Pressure>(block, part, stress_at, sums);
-    });
-  }
-
-  /// a_i = f_i/m_i + b, v_i += dt a_i.
-  void accelerate_nodes(Rows nodes, const double b[2], double dt) {
-    const Pair a_i = fields_.acceleration(), v_i = fields_.velocity();
-    const double g[2] = {b[0], b[1]};
-    const Lanes most = most_inverse_mass_;
-    fields_.each_node(nodes, [=, inverse = fields_.inverse_mass()](int i, auto count) {
-      const Lanes one_over_m = load(inverse + i), felt = least(one_over_m, most);
-      for (std::size_t c : {0, 1}) {
-        const Lanes a = select(one_over_m > 0, load(a_i[c] + i) * felt + g[c], 0);
-        store_first(count, a_i[c] + i, a);
-        store_first(count, v_i[c] + i, load(v_i[c] + i) + dt * a);
-      }
     });
   }
 
@@ -242,16 +165,16 @@ class LaneKernel final : public Kernel {
   /// = v(x_p), and C_p.
   template <Take taken, bool moves>
   void gather_from_nodes(const Part& part, [[maybe_unused]] double flip, double dt) {
-    Share& share = shares_[static_cast<std::size_t>(part.share)];
+    Share& of_part = share(part);
     const double cells_a_step[2] = {dt * basis_.inverse_h[0], dt * basis_.inverse_h[1]};
     each_block(part.cells, [&](const Block& block) {
-      const CellVelocity<Basis> v(basis_, block, fields_.velocity());
-      const CellVelocity<Basis> a(basis_, block, fields_.acceleration());
+      const CellVelocity<Basis> v(basis_, block, fields().velocity());
+      const CellVelocity<Basis> a(basis_, block, fields().acceleration());
       Lanes energy = 0, lowest = 0, highest = 0;
       const auto take = [&]<class Weights>([[maybe_unused]] int k, Slot& p, const Weights& n_p) {
         if constexpr (taken == Take::Affine) {
           const CellMoments<Basis, Weights::is_uniform> m_p(basis_, block, p, n_p);
-          Affine& affine = cells_.affines(block)[static_cast<std::size_t>(k)];
+          Affine& affine = cells().affines(block)[static_cast<std::size_t>(k)];
           for (int c : {0, 1}) {
             const auto u = v[c].affinely_at(n_p, m_p);
             p.v[c] = u.value;
@@ -279,8 +202,8 @@ class LaneKernel final : public Kernel {
         each_slot<fetch_by_g2p>(block, part, take);
       else
         each_slot<fetch_by_g2p>(block, part, take, move);
-      share.energy += energy;
-      if (((lowest < 0) | (highest >= 1)).any()) cells_.take_out_movers(block, share.left);
+      of_part.energy += energy;
+      if (((lowest < 0) | (highest >= 1)).any()) cells().take_out_movers(block, of_part.left);
     });
   }
 
@@ -289,21 +212,21 @@ class LaneKernel final : public Kernel {
   template <class Sums, class Give>
   [[gnu::flatten]] void scatter(const Part& part, const std::array<double*, Sums::fields>& nodes,
                                 Give&& give) {
-    for (double* node : nodes) fields_.clear(node, part.fresh);
+    for (double* node : nodes) fields().clear(node, part.fresh);
     NodeSums<Basis, Sums> node_sums(basis_, nodes);
-    for (const Block& block : cells_.blocks(part.cells)) {
+    for (const Block& block : cells().blocks(part.cells)) {
       Sums sums;
       give(block, sums);
       node_sums.add(block.first_node, sums);
     }
     node_sums.finish();
-    for (double* node : nodes) fields_.join_images(node, part.complete);
+    for (double* node : nodes) fields().join_images(node, part.complete);
   }
 
   /// f(block) for the cells of some rows.
   template <class F>
   [[gnu::flatten]] void each_block(Rows rows, F&& f) {
-    for (const Block& block : cells_.blocks(rows)) f(block);
+    for (const Block& block : cells().blocks(rows)) f(block);
   }
 
   /// f(number, slot, weights) for the slots of a block. Meanwhile `fetch` of what is stored part.ahead cells
@@ -312,9 +235,9 @@ class LaneKernel final : public Kernel {
   void each_slot(const Block& block, const Part& part, F&& f) {
     [[maybe_unused]] constexpr std::size_t sixth = sizeof(Slot) / 6,
                                            end = (fetch.first + fetch.sixths) * sixth;
-    [[maybe_unused]] const std::ptrdiff_t ahead = part.ahead * bytes_a_cell_;
+    [[maybe_unused]] const std::ptrdiff_t ahead = part.ahead * bytes_a_cell();
     with_weights(basis_, block, [&](const auto& weights) {
-      for (int k = 0; Slot & p : cells_.slots(block)) {
+      for (int k = 0; Slot & p : cells().slots(block)) {
         if constexpr (fetch.sixths > 0)
           if (ahead > 0)
             for (std::size_t byte = fetch.first * sixth; byte < end; byte += 64)
@@ -340,13 +263,7 @@ class LaneKernel final : public Kernel {
     }
   }
 
-  Cells cells_;
   Basis basis_;
-  NodalFields fields_;
-  KernelFluid fluid_;
-  double most_inverse_mass_;
-  std::vector<Share> shares_;
-  std::ptrdiff_t bytes_a_cell_ = 0;  // of slots
 };
 
 }  // namespace mpm::MPM_ISA

@@ -15,15 +15,15 @@ struct FunctionWeights {
   [[nodiscard]] const double* of() const { return reinterpret_cast<const double*>(part); }
 };
 
-/// The polynomials that the n functions of an axis are in each cell, every distinct set once: away from walls
+/// The polynomials that the functions of an axis are in each cell, every distinct set once: away from walls
 /// all cells have the same.
-template <int n>
-class CellPolynomials {
+class PolynomialSets {
  public:
-  CellPolynomials(const double* polynomials, int cells) {
-    constexpr std::size_t padded = FunctionWeights<n>::padded, set = padded * n;
+  /// Of n functions a cell, each power's coefficients filled up to `padded` with zeros.
+  PolynomialSets(const double* polynomials, int cells, std::size_t n, std::size_t padded) {
+    const std::size_t set = padded * n;
     for (int cell = 0; cell < cells; ++cell) {
-      const double* const from = polynomials + static_cast<std::ptrdiff_t>(cell) * n * n;
+      const double* const from = polynomials + static_cast<std::size_t>(cell) * n * n;
       std::size_t known = 0;
       const auto same = [&] {
         for (std::size_t m = 0; m < n; ++m)
@@ -41,10 +41,26 @@ class CellPolynomials {
     }
   }
 
+  [[nodiscard]] const double* of_cell(int cell) const {
+    return sets_.data() + of_cell_[static_cast<std::size_t>(cell)];
+  }
+
+ private:
+  std::vector<double> sets_;  // [set][power, the highest first][function]
+  std::vector<int> of_cell_;
+};
+
+/// The n functions of an axis in each cell.
+template <int n>
+class CellPolynomials {
+ public:
+  CellPolynomials(const double* polynomials, int cells)
+      : sets_(polynomials, cells, n, FunctionWeights<n>::padded) {}
+
   /// The functions of a cell at xi in [0, 1], by Horner's rule.
   [[gnu::always_inline]] void at(int cell, double xi, FunctionWeights<n>& sum) const {
     using W = FunctionWeights<n>;
-    const double* const powers = sets_.data() + of_cell_[static_cast<std::size_t>(cell)];
+    const double* const powers = sets_.of_cell(cell);
     unroll<W::parts>([&](int p) { sum.part[p] = load(powers + p * width); });
     unroll<n - 1>([&](int m) {
       unroll<W::parts>(
@@ -53,23 +69,28 @@ class CellPolynomials {
   }
 
  private:
-  std::vector<double> sets_;  // [set][power, the highest first][function]
-  std::vector<int> of_cell_;
+  PolynomialSets sets_;
 };
 
-/// The same for `width` neighbouring cells at once, a lane each: every function's coefficients.
+/// The polynomials of `width` neighbouring cells at once, a lane each, n x n coefficients a cell.
+inline LargeArray<Lanes> polynomials_of_blocks(const double* polynomials, int cells, int n) {
+  LargeArray<Lanes> powers;
+  for (int first = 0; first < cells; first += width)
+    for (int k = 0; k < n * n; ++k) {
+      Lanes of_cells = 0;
+      for (int lane = 0; lane < std::min(width, cells - first); ++lane)
+        of_cells[lane] = polynomials[static_cast<std::ptrdiff_t>(first + lane) * n * n + k];
+      powers.push_back(of_cells);
+    }
+  return powers;
+}
+
+/// CellPolynomials for `width` neighbouring cells at once: every function's coefficients.
 template <int n>
 class BlockPolynomials {
  public:
-  BlockPolynomials(const double* polynomials, int cells) {
-    for (int first = 0; first < cells; first += width)
-      for (int k = 0; k < n * n; ++k) {
-        Lanes of_cells = 0;
-        for (int lane = 0; lane < std::min(width, cells - first); ++lane)
-          of_cells[lane] = polynomials[static_cast<std::ptrdiff_t>(first + lane) * n * n + k];
-        powers_.push_back(of_cells);
-      }
-  }
+  BlockPolynomials(const double* polynomials, int cells)
+      : powers_(polynomials_of_blocks(polynomials, cells, n)) {}
 
   [[gnu::always_inline]] void at(int block, Lanes xi, Lanes (&sum)[n]) const {
     const Lanes* const powers = powers_.data() + static_cast<std::ptrdiff_t>(block) * n * n;

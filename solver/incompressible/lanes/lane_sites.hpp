@@ -8,6 +8,51 @@
 
 namespace mpm::MPM_ISA {
 
+/// What sites have in vectors of `width` neighbouring cells, of n points and n functions a cell along each
+/// axis; zero in lanes beyond the last cell.
+class SiteBlocks {
+ public:
+  SiteBlocks(const SiteSetup& setup, int n)
+      : setup_(setup), n_(n), blocks_((setup.cells[0] + width - 1) / width) {}
+
+  /// The functions along x: [block][point][derivative][function].
+  [[nodiscard]] LargeArray<Lanes> functions_x() const {
+    LargeArray<Lanes> functions;
+    for (int block = 0; block < blocks_; ++block)
+      for (int g = 0; g < n_; ++g)
+        for (const std::vector<double>& of : setup_.functions[0])
+          for (int a = 0; a < n_; ++a)
+            functions.push_back(
+                of_cells(block, [&](int cell) { return of[index((cell * n_ + g) * n_ + a)]; }));
+    return functions;
+  }
+  /// The area that a site stands for [m2]: [row][block][point along y][point along x].
+  [[nodiscard]] LargeArray<Lanes> weights() const {
+    LargeArray<Lanes> weights;
+    for (int row = 0; row < setup_.cells[1]; ++row)
+      for (int block = 0; block < blocks_; ++block)
+        for (int gy = 0; gy < n_; ++gy)
+          for (int gx = 0; gx < n_; ++gx)
+            weights.push_back(of_cells(block, [&](int cell) {
+              return setup_.weights[0][index(cell * n_ + gx)] * setup_.weights[1][index(row * n_ + gy)];
+            }));
+    return weights;
+  }
+
+ private:
+  static std::size_t index(int n) { return static_cast<std::size_t>(n); }
+  template <class Value>
+  [[nodiscard]] Lanes of_cells(int block, const Value& of_cell) const {
+    Lanes values = 0;
+    for (int lane = 0; lane < std::min(width, setup_.cells[0] - block * width); ++lane)
+      values[lane] = of_cell(block * width + lane);
+    return values;
+  }
+
+  const SiteSetup& setup_;
+  int n_, blocks_;
+};
+
 /// Sites in vectors of `width` neighbouring cells: of each row of cells, each block of cells, each point
 /// along y, each along x. Sums over functions are factorised: along one axis, then along the other.
 template <int k>
@@ -16,23 +61,11 @@ class LaneSites final : public SiteKernel {
   explicit LaneSites(const SiteSetup& setup)
       : cells_(setup.cells),
         blocks_((setup.cells[0] + width - 1) / width),
-        per_derivative_(setup.functions[1][0].size()) {
-    for (int block = 0; block < blocks_; ++block)
-      for (int g = 0; g < n; ++g)
-        for (std::size_t d = 0; d < 3; ++d)
-          for (int a = 0; a < n; ++a)
-            functions_x_.push_back(
-                of_cells(block, [&](int cell) { return setup.functions[0][d][index(cell, g, a)]; }));
+        functions_x_(SiteBlocks(setup, n).functions_x()),
+        per_derivative_(setup.functions[1][0].size()),
+        weights_(SiteBlocks(setup, n).weights()) {
     for (const std::vector<double>& of : setup.functions[1])
       functions_y_.insert(functions_y_.end(), of.begin(), of.end());
-    for (int row = 0; row < cells_[1]; ++row)
-      for (int block = 0; block < blocks_; ++block)
-        for (int gy = 0; gy < n; ++gy)
-          for (int gx = 0; gx < n; ++gx)
-            weights_.push_back(of_cells(block, [&](int cell) {
-              return setup.weights[0][static_cast<std::size_t>(cell * n + gx)] *
-                     setup.weights[1][static_cast<std::size_t>(row * n + gy)];
-            }));
   }
 
   [[nodiscard]] int size() const override { return static_cast<int>(weights_.size()) * width; }
@@ -148,14 +181,6 @@ class LaneSites final : public SiteKernel {
   }
   [[nodiscard]] int site(int row, int block, int gy, int gx) const {
     return (((row * blocks_ + block) * n + gy) * n + gx) * width;
-  }
-  /// Zero in lanes beyond the last cell.
-  template <class Value>
-  [[nodiscard]] Lanes of_cells(int block, const Value& of_cell) const {
-    Lanes values = 0;
-    for (int lane = 0; lane < std::min(width, cells_[0] - block * width); ++lane)
-      values[lane] = of_cell(block * width + lane);
-    return values;
   }
   [[nodiscard]] const Lanes* function_x(int block, int g) const {
     return functions_x_.data() + (block * n + g) * 3 * n;

@@ -25,7 +25,7 @@ class PlaneMass {
   }
 
   /// z is zero but at unknowns.
-  void solve(const double* r, double* z, Scratch& scratch) const {
+  [[gnu::flatten]] void solve(const double* r, double* z, Scratch& scratch) const {
     const int stride = rows_.stride();
     const std::ptrdiff_t first = rows_.first_unknown(1) * stride;
     solve_line(along_y_, r + first, z + first, stride, rows_.count(0));

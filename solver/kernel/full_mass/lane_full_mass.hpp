@@ -2,9 +2,8 @@
 
 #include <optional>
 
-#include "solver/kernel/full_mass/forecast.hpp"
+#include "solver/kernel/full_mass/full_mass_nodes.hpp"
 #include "solver/kernel/full_mass/lattice_reset.hpp"
-#include "solver/kernel/full_mass/mass_solve.hpp"
 #include "solver/kernel/full_mass/outside_acceleration.hpp"
 #include "solver/kernel/full_mass/plane_particles.hpp"
 
@@ -20,17 +19,7 @@ class LaneFullMass final : public FullMassKernel {
         particles_(setup.particles, lattice_, bands_),
         shares_(static_cast<std::size_t>(bands_.count())),
         matrix_(lattice_),
-        solve_(lattice_, bands_, matrix_, setup.mass, setup.wall_nodes, setup.negligible_mass),
-        mass_(lattice_),
-        right_side_(lattice_),
-        velocity_(lattice_),
-        start_(lattice_),
-        middle_acceleration_(lattice_),
-        acceleration_(lattice_),
-        nothing_(lattice_),
-        drifts_(lattice_),
-        middle_accelerations_(lattice_),
-        changes_(lattice_) {
+        nodes_(setup, lattice_, bands_, matrix_) {
     if (setup.resets) reset_.emplace(setup, lattice_, bands_, matrix_);
   }
 
@@ -49,55 +38,29 @@ class LaneFullMass final : public FullMassKernel {
     return {mass, {momentum_0, momentum_1}, energy};
   }
   [[nodiscard]] int stride() const override { return lattice_.stride(); }
-  double* prescribed(int component) override {
-    return solve_.prescribed(static_cast<std::size_t>(component));
-  }
-  [[nodiscard]] const double* velocity(int component) const override {
-    return velocity_[static_cast<std::size_t>(component)];
-  }
+  double* prescribed(int component) override { return nodes_.prescribed(component); }
+  [[nodiscard]] const double* velocity(int component) const override { return nodes_.velocity(component); }
 
   Balance project() override {
     sum_momentum_and_mass();
-    // The field that the particles took last, and what a drift makes of it.
-    const Balance balance = kicked_ ? solve(velocity_, *kicked_, drifts_, {{0, 0}})
-                                    : solve_(mass_[0], right_side_, velocity_, {{0, 0}});
-    energy_ = bands_.sum([&](int i, Lanes(&sum)[2]) {
-      for (std::size_t c : {0, 1}) {
-        const Lanes v = load(velocity_[c] + i);
-        store(start_[c] + i, v);
-        sum[c] += load(mass_[0] + i) * v * v;
-      }
-    });
-    return balance;
+    return nodes_.project();
   }
 
   Balance project_aside() override {
     sum_momentum_and_mass();
-    if (kicked_) drifts_.read(bands_, time_, *kicked_, velocity_, 0.5);  // half the drift is to come
-    return solve_(mass_[0], right_side_, velocity_, {{0, 0}});
+    return nodes_.project_aside();
   }
 
   Balance kick(Kick which, const double b[2], double dt) override {
     sum_forces(b);
-    // dt a is added to the velocity, which is known to 1e-14 by its own solve. The whole kick differs little
-    // from that to the middle, and by nearly as much as in the step before.
-    const Both beside{{energy_.of[0] / (dt * dt), energy_.of[1] / (dt * dt)}};
-    const bool whole = which == Kick::Whole;
-    LatticeVector& a = whole ? acceleration_ : middle_acceleration_;
-    const Balance balance = whole ? solve(a, middle_acceleration_, changes_, beside)
-                                  : solve(a, nothing_, middle_accelerations_, beside);
-    bands_.each_vector_with_margins(velocity_, [&](int i) {
-      for (std::size_t c : {0, 1}) store(velocity_[c] + i, load(start_[c] + i) + dt * load(a[c] + i));
-    });
-    if (whole) kicked_ = velocity_;
-    return balance;
+    return nodes_.kick(which, dt);
   }
 
   void take() override {
     bands_.each_of_cells([&](int, Rows rows) {
       particles_.each_block(rows, [&](const Block& block) {
-        const Components<CellField<Basis>> v(particles_.basis(), block, velocity());
-        const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, velocity());
+        const Components<CellField<Basis>> v(particles_.basis(), block, nodes_.velocity());
+        const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, nodes_.velocity());
         particles_.each_slot(block, [&](int k, Slot& p, const Weights& n_p) {
           for (int c : {0, 1}) p.v[c] = v[c].at(n_p);
           if (!particles_.has_pressure()) return;
@@ -118,7 +81,7 @@ class LaneFullMass final : public FullMassKernel {
   }
 
   Motion drift(double dt) override {
-    time_ += dt;
+    nodes_.pass(dt);
     const double cells_a_step[2] = {dt * particles_.basis().inverse_h[0],
                                     dt * particles_.basis().inverse_h[1]};
     bands_.each_of_cells([&](int band, Rows rows) {
@@ -157,7 +120,7 @@ class LaneFullMass final : public FullMassKernel {
     bands_.each_of_cells([&](int band, Rows rows) {
       Lanes most = 0;
       particles_.each_block(rows, [&](const Block& block) {
-        const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, velocity());
+        const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, nodes_.velocity());
         particles_.each_slot(block, [&](int, const Slot& p, const Weights& n_p) {
           const auto [d_00, d_01] = grad_v[0].at(n_p);
           const auto [d_10, d_11] = grad_v[1].at(n_p);
@@ -175,7 +138,7 @@ class LaneFullMass final : public FullMassKernel {
 
   void reset() override {
     const Balance momentum = project_aside();
-    reset_->project_density(particles_, mass_[0]);
+    reset_->project_density(particles_, nodes_.mass());
     particles_.put_back();
     take();
     reset_->take_density(particles_, momentum.asked);
@@ -188,7 +151,7 @@ class LaneFullMass final : public FullMassKernel {
   }
 
   /// Iterations of all solves so far.
-  [[nodiscard]] long iterations() const { return solve_.iterations(); }
+  [[nodiscard]] long iterations() const { return nodes_.iterations(); }
 
  private:
   using Basis = typename PlaneParticles<degree>::Basis;
@@ -202,15 +165,16 @@ class LaneFullMass final : public FullMassKernel {
   };
 
   /// Mass, its matrix and momentum of the particles, complete for a solve.
-  void sum_momentum_and_mass() {
+  [[gnu::noinline]] void sum_momentum_and_mass() {
     bands_.each_of_cells([&](int band, Rows cells) {
       const Rows rows = nodes_of(band, cells);
-      mass_.clear(lattice_, rows);
-      right_side_.clear(lattice_, rows);
+      nodes_.clear_mass(rows);
+      nodes_.clear_right_side(rows);
       matrix_.clear(rows);
     });
+    const auto [momentum_0, momentum_1] = nodes_.right_side();
     particles_.template scatter<MomentumSums<Basis, true>>(
-        {mass_[0], right_side_[0], right_side_[1]}, [&](const Block& block, auto& sums) {
+        {nodes_.mass(), momentum_0, momentum_1}, [&](const Block& block, auto& sums) {
           CellMass<degree> mass;
           particles_.each_slot(block, [&](int, const Slot& p, const Weights& n_p) {
             sums.add(n_p, p.mass, p.v);
@@ -218,20 +182,17 @@ class LaneFullMass final : public FullMassKernel {
           });
           if (block.size > 0) matrix_.add(block.first_node, mass);
         });
-    bands_.each(3, [&](int field) {
-      lattice_.join_images(field == 0 ? mass_[0] : right_side_[static_cast<std::size_t>(field) - 1]);
-    });
     matrix_.complete(bands_);
-    solve_.fix_nodes(mass_[0]);
+    nodes_.complete_mass();
   }
 
   /// m_i b + sum_p N_ip m_p b_p - sum_p V_p sigma_p grad N_ip, stress and all as in LaneKernel.
   void sum_forces(const double b[2]) {
-    bands_.each_of_cells([&](int band, Rows cells) { right_side_.clear(lattice_, nodes_of(band, cells)); });
+    bands_.each_of_cells([&](int band, Rows cells) { nodes_.clear_right_side(nodes_of(band, cells)); });
     // A Newtonian stress is a few products: written out, it saves a second loop over the slots.
     const bool is_summed = particles_.with_newtonian([&](const auto& law, const auto& pressure) {
       scatter_forces([&](const Block& block, auto& sums) {
-        const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, velocity());
+        const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, nodes_.velocity());
         particles_.each_slot(block, [&](int k, const Slot& p, const Weights& n_p) {
           Strained strained = strained_at(n_p, grad_v);
           if (pressure.varies) strained.density = density_of(p);
@@ -249,19 +210,13 @@ class LaneFullMass final : public FullMassKernel {
           sums.add(n_p, (0 - p.volume) * stress[k]);
         });
       });
-    outside_.add_forces(particles_, {right_side_[0], right_side_[1]});
-    bands_.each(2, [&](int c) { lattice_.join_images(right_side_[static_cast<std::size_t>(c)]); });
-    bands_.each_vector([&](int i) {
-      for (std::size_t c : {0, 1}) {
-        double* const f = right_side_[c] + i;
-        store(f, load(f) + b[c] * load(mass_[0] + i));
-      }
-    });
+    outside_.add_forces(particles_, nodes_.right_side());
+    nodes_.complete_forces(b);
   }
 
   template <class Give>
   void scatter_forces(const Give& give) {
-    particles_.template scatter<DivergenceSums<Basis>>({right_side_[0], right_side_[1]}, give);
+    particles_.template scatter<DivergenceSums<Basis>>(nodes_.right_side(), give);
   }
 
   /// Stress of a block's particles from the nodal velocity. The fluid is asked about some of them at a time:
@@ -269,7 +224,7 @@ class LaneFullMass final : public FullMassKernel {
   void set_stress(const Block& block) {
     constexpr std::size_t some = 32;
     Strained strained[some];
-    const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, velocity());
+    const Components<CellGradient<Basis>> grad_v(particles_.basis(), block, nodes_.velocity());
     const std::span<const Slot> slots = particles_.cells().slots(block);
     Stress* stress = particles_.cells().stresses(block).data();
     for (std::size_t first = 0; first < slots.size(); first += some) {
@@ -308,31 +263,14 @@ class LaneFullMass final : public FullMassKernel {
     p.volume = p.volume * ratio;
   }
 
-  /// Solves for x, from where a forecast of its difference to `base` says that it is.
-  Balance solve(LatticeVector& x, const LatticeVector& base, Forecast& forecast, const Both& beside) {
-    forecast.read(bands_, time_, base, x, 1);
-    const Balance balance = solve_(mass_[0], right_side_, x, beside);
-    forecast.keep(bands_, time_, base, x);
-    return balance;
-  }
-
-  [[nodiscard]] std::array<double*, 2> velocity() { return {velocity_[0], velocity_[1]}; }
-
   Lattice lattice_;
   Bands bands_;
   PlaneParticles<degree> particles_;
   std::vector<Share> shares_;  // one a band
   OutsideAcceleration<degree> outside_;
   MassMatrix<degree> matrix_;
-  MassSolve<degree> solve_;
+  FullMassNodes nodes_;
   std::optional<LatticeReset<degree>> reset_;
-  LatticeFields<1> mass_;  // sum_p N_ip m_p [kg/m]
-  LatticeVector right_side_, velocity_, start_, middle_acceleration_, acceleration_, nothing_;
-  std::optional<LatticeVector> kicked_;  // the velocity that the last step ended with
-  // What drifts add to it; accelerations, and their changes from the middle of a step to the whole.
-  Forecast drifts_, middle_accelerations_, changes_;
-  Both energy_{{0, 0}};  // sum_i m_i v_i^2 at the start [kg m/s2]
-  double time_ = 0;      // of particles, since the first drift [s]
 };
 
 }  // namespace mpm::MPM_ISA

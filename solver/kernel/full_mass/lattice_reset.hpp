@@ -11,7 +11,7 @@ template <int degree>
 class LatticeReset {
  public:
   LatticeReset(const FullMassSetup& setup, const Lattice& lattice, const Bands& bands,
-               const MassMatrix<degree>& matrix)
+               const LatticeMatrix& matrix)
       : lattice_(lattice),
         bands_(bands),
         density_solve_(lattice, bands, matrix, setup.whole_mass, {}, setup.negligible_mass),
@@ -89,7 +89,7 @@ class LatticeReset {
 
   const Lattice& lattice_;
   const Bands& bands_;
-  MassSolve<degree> density_solve_;
+  MassSolve density_solve_;
   LatticeVector right_side_, density_;  // their second components are nothing
   // One away from walls, falling to zero on them: what may be added to a velocity without moving a wall.
   LatticeFields<1> weight_;

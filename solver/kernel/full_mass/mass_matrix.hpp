@@ -37,11 +37,22 @@ class CellMass {
   Lanes sum_[pairs * pairs] = {};  // pair across the lanes * pairs + pair along them
 };
 
+/// What a solve asks of a matrix on a lattice.
+class LatticeMatrix {
+ public:
+  virtual ~LatticeMatrix() = default;
+
+  /// M_ii of all nodes.
+  [[nodiscard]] virtual const double* diagonal() const = 0;
+  /// product = M x, both components, in some rows of nodes; x with its margin set.
+  virtual void multiply(Rows rows, const LatticeVector& x, LatticeVector& product) const = 0;
+};
+
 /// The consistent mass matrix on a lattice. Entry d of node i is its coupling with the node d away: of the
 /// (2 degree + 1)^2 those ahead in the numbering of nodes, and itself. Those behind are what the nodes there
 /// have.
 template <int degree>
-class MassMatrix {
+class MassMatrix final : public LatticeMatrix {
  public:
   explicit MassMatrix(const Lattice& lattice) : lattice_(lattice), entries_(lattice) {
     // Neighbouring functions along the lanes add to overlapping vectors: they come as late as possible after
@@ -71,15 +82,12 @@ class MassMatrix {
     });
   }
 
-  /// M_ii of all nodes.
-  [[nodiscard]] const double* diagonal() const { return entries_[0]; }
+  [[nodiscard]] const double* diagonal() const override { return entries_[0]; }
 
-  /// visit(i, (M x)_i) with both components in the vectors of nodes of some rows; x with its margin set.
-  template <class Visit>
-  [[gnu::always_inline]] void multiply(Rows rows, const double* const x[2], Visit&& visit) const {
+  [[gnu::flatten]] void multiply(Rows rows, const LatticeVector& x, LatticeVector& product) const override {
     int row = rows.begin;
-    for (; row + at_once <= rows.end; row += at_once) multiply_rows<at_once>(row, x, visit);
-    for (; row < rows.end; ++row) multiply_rows<1>(row, x, visit);
+    for (; row + at_once <= rows.end; row += at_once) multiply_rows<at_once>(row, x, product);
+    for (; row < rows.end; ++row) multiply_rows<1>(row, x, product);
   }
 
  private:
@@ -89,8 +97,11 @@ class MassMatrix {
   /// Rows whose products share what they read of x.
   static constexpr int at_once = 4;
 
-  template <int rows, class Visit>
-  [[gnu::always_inline]] void multiply_rows(int first_row, const double* const x[2], Visit&& visit) const {
+  template <int rows>
+  [[gnu::always_inline]] void multiply_rows(int first_row, const LatticeVector& of,
+                                            LatticeVector& product) const {
+    const double* const x[2] = {of[0], of[1]};
+    double* const to[2] = {product[0], product[1]};
     const std::ptrdiff_t stride = lattice_.stride(), pitch = static_cast<std::ptrdiff_t>(entries_.pitch());
     lattice_.each_vector({first_row, first_row + 1}, [&](int i) {
       // Two sums each, of the entries of nodes themselves and of those behind: independent of each other.
@@ -113,10 +124,8 @@ class MassMatrix {
           });
         });
       });
-      for (int row = 0; row < rows; ++row) {
-        const Lanes product[2] = {ahead[row][0] + behind[row][0], ahead[row][1] + behind[row][1]};
-        visit(i + row * static_cast<int>(stride), product);
-      }
+      for (int row = 0; row < rows; ++row)
+        for (int c : {0, 1}) store(to[c] + i + row * stride, ahead[row][c] + behind[row][c]);
     });
   }
 

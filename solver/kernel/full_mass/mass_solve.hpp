@@ -9,11 +9,10 @@ namespace mpm::MPM_ISA {
 
 /// Solves M x = b for both components of a nodal field at once, with prescribed values on walls, by conjugate
 /// gradients (ConsistentMass, solver/transfer; solver/grid/conjugate_gradients.hpp, whose notes hold here).
-template <int degree>
 class MassSolve {
  public:
   /// With the mass of a uniform fluid, and the nodes whose values are prescribed (FullMassSetup).
-  MassSolve(const Lattice& lattice, const Bands& bands, const MassMatrix<degree>& matrix,
+  MassSolve(const Lattice& lattice, const Bands& bands, const LatticeMatrix& matrix,
             const std::array<LineMass, 2>& line, const std::vector<int>& walls, double negligible_mass)
       : lattice_(lattice),
         bands_(bands),
@@ -112,13 +111,14 @@ class MassSolve {
 
   /// r = b - M x on free nodes; returns x M x + 2 x r.
   Both begin_residual(const LatticeVector& b, const LatticeVector& x) {
-    const double* const of[2] = {x[0], x[1]};
     return bands_.sum_of_rows([&](Rows rows, Lanes(&sum)[2]) {
-      matrix_.multiply(rows, of, [&](int i, const Lanes(&product)[2]) {
+      matrix_.multiply(rows, x, product_);
+      lattice_.each_vector(rows, [&](int i) {
         for (std::size_t c : {0, 1}) {
-          const Lanes r = load(node_[free] + i) * (load(b[c] + i) - product[c]);
+          const Lanes product = load(product_[c] + i);
+          const Lanes r = load(node_[free] + i) * (load(b[c] + i) - product);
           store(residual_[c] + i, r);
-          sum[c] += load(x[c] + i) * (product[c] + 2 * r);
+          sum[c] += load(x[c] + i) * (product + 2 * r);
         }
       });
       inverse_.sum_along(rows, node_[scale], residual_);
@@ -127,13 +127,13 @@ class MassSolve {
 
   /// q = M d on free nodes; returns d q.
   Both multiply_direction() {
-    const double* const d[2] = {direction_[0], direction_[1]};
     return bands_.sum_of_rows([&](Rows rows, Lanes(&sum)[2]) {
-      matrix_.multiply(rows, d, [&](int i, const Lanes(&product)[2]) {
+      matrix_.multiply(rows, direction_, product_);
+      lattice_.each_vector(rows, [&](int i) {
         for (std::size_t c : {0, 1}) {
-          const Lanes q = load(node_[free] + i) * product[c];
+          const Lanes q = load(node_[free] + i) * load(product_[c] + i);
           store(product_[c] + i, q);
-          sum[c] += q * load(d[c] + i);
+          sum[c] += q * load(direction_[c] + i);
         }
       });
     });
@@ -195,7 +195,7 @@ class MassSolve {
 
   const Lattice& lattice_;
   const Bands& bands_;
-  const MassMatrix<degree>& matrix_;
+  const LatticeMatrix& matrix_;
   UniformInverse inverse_;
   double negligible_mass_;
   bool has_walls_;
