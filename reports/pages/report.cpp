@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/figures/drawing/for_each_index.hpp"
+#include "reports/threads/for_each_index.hpp"
 #include "reports/figures/drawing/gnuplot.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/browser.hpp"

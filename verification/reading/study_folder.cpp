@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <exception>
 
 #include "reports/records/directory/result_files.hpp"
+#include "reports/threads/for_each_index.hpp"
 #include "verification/config/config_error.hpp"
+#include "verification/config/machine.hpp"
 #include "verification/reading/study_reader.hpp"
 
 namespace verification {
@@ -65,8 +68,19 @@ Study read_in(const fs::path& file, const fs::path& directory, const Guide& guid
 
 std::vector<Study> read_studies(const fs::path& directory) {
   const Guide guide = guide_of(directory);
-  std::vector<Study> studies;
-  for (const fs::path& file : study_files(directory)) studies.push_back(read_in(file, directory, guide));
+  const std::vector<fs::path> files = study_files(directory);
+  std::vector<Study> studies(files.size());
+  std::vector<std::exception_ptr> wrong(files.size());
+  reports::for_each_index(files.size(), available_cores(), [&](std::size_t i) {
+    try {
+      studies[i] = read_in(files[i], directory, guide);
+    } catch (...) {
+      wrong[i] = std::current_exception();
+    }
+  });
+  // The first one in their order, whichever was met first.
+  for (const std::exception_ptr& one : wrong)
+    if (one) std::rethrow_exception(one);
   // In the order of their names, wherever they lie: moving a file changes no table.
   std::ranges::stable_sort(studies, {}, [](const Study& study) { return study.name + ".toml"; });
   for (std::size_t s = 1; s < studies.size(); ++s)

@@ -266,7 +266,7 @@ void repeat_timing(const Study& study, const PlannedRun& plan, const mpm::Scene&
 }  // namespace
 
 bool warms_itself(int asked, double wall) {
-  return wall >= (asked > 1 ? 0.05 : 0.5);
+  return wall >= (asked > 1 ? 0.05 : 0.25);
 }
 
 bool wants_repetition(int asked, const std::vector<double>& walls) {

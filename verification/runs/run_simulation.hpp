@@ -11,7 +11,7 @@ RunData run_simulation(const Study& study, const PlannedRun& plan);
 
 /// Whether the first simulation, of so many seconds, is timed like the others: what cold caches and pages
 /// cost, milliseconds, is a small part of a long one, and the fastest counts. Where one time is `asked` for,
-/// there is no faster one: it must be ten times as long.
+/// there is no faster one: it must be five times as long.
 bool warms_itself(int asked, double wall);
 
 /// Whether a run is to be timed again after these times [s], `asked` times at most: no more than twice, whose

@@ -1,15 +1,12 @@
 #include "verification/suite/schedule.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <map>
-#include <mutex>
 #include <string>
-#include <system_error>
-#include <thread>
 #include <variant>
 
+#include "reports/threads/for_each_index.hpp"
 #include "verification/runs/run_simulation.hpp"
 
 namespace verification {
@@ -72,33 +69,12 @@ Schedule schedule(const std::vector<Study>& studies) {
 
 std::exception_ptr perform_all(const std::vector<Job>& jobs, int threads,
                                const std::function<void(const Job&)>& perform) {
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> stopped{false};
-  std::mutex mutex;
-  std::exception_ptr cause;
-  const auto work = [&] {
-    while (!stopped) {
-      const std::size_t mine = next++;
-      if (mine >= jobs.size()) return;
-      try {
-        perform(jobs[mine]);
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        if (!cause) cause = std::current_exception();
-        stopped = true;
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> pool;
-    try {
-      for (int i = 1; i < threads; ++i) pool.emplace_back(work);
-    } catch (const std::system_error&) {
-      // A limit on processes: those that there are share out the work.
-    }
-    work();
+  try {
+    reports::for_each_index(jobs.size(), threads, [&](std::size_t i) { perform(jobs[i]); });
+  } catch (...) {
+    return std::current_exception();
   }
-  return cause;
+  return nullptr;
 }
 
 }  // namespace verification

@@ -23,6 +23,9 @@ Mark curve_mark(std::size_t index) {
 
 namespace {
 
+/// Pixels of a PNG to one of its SVG: sharp on a page, and a third less to compress than with 1.5.
+constexpr double png_scale = 1.25;
+
 // Characters, not bytes: continuation bytes of UTF-8 take no room.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(
@@ -169,7 +172,6 @@ std::string FigureScript::text(const std::string& name) const {
   const std::string title = wrap(title_, 88);
   const std::size_t title_rows = 1 + static_cast<std::size_t>(std::count(title.begin(), title.end(), '\n'));
   const std::size_t width = 960, height = 560 + 24 * rows + 22 * title_rows;
-  const double png_scale = 1.5;
 
   std::string script = fmt::format(
       "# Draws {0}.svg and {0}.png here: gnuplot {0}.gp\n"
@@ -264,12 +266,11 @@ std::string panels_text(const std::string& name, const std::string& title, std::
       "set output '{}.svg'.part\nmark_size = 0.6\n",
       width, height, name);
   script += layout + drawing + "unset multiplot\n";
-  const double scale = 1.5;
   script += fmt::format(
       "set terminal pngcairo size {:.0f},{:.0f} enhanced font 'sans,10' fontscale {} linewidth {} pointscale "
       "{} "
       "background '#ffffff'\nset output '{}.png'.part\nmark_size = 1\n",
-      scale * width, scale * height, scale, scale, scale, name);
+      png_scale * width, png_scale * height, png_scale, png_scale, png_scale, name);
   return script + layout + drawing + "unset multiplot\nunset output\n";
 }
 

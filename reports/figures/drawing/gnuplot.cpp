@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "reports/figures/drawing/figure_cache.hpp"
-#include "reports/figures/drawing/for_each_index.hpp"
+#include "reports/threads/for_each_index.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/files/program.hpp"

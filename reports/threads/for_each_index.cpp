@@ -1,4 +1,4 @@
-#include "reports/figures/drawing/for_each_index.hpp"
+#include "reports/threads/for_each_index.hpp"
 
 #include <atomic>
 #include <exception>
