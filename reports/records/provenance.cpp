@@ -6,10 +6,10 @@
 
 #include <ctime>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
+#include "reports/files/json_text.hpp"
 
 namespace reports {
 namespace {
@@ -54,7 +54,7 @@ std::string utc_now() {
 }
 
 void write_provenance(const std::filesystem::path& dir, const Provenance& provenance, Durability durability) {
-  const nlohmann::ordered_json json = {
+  const Json json = {
       {"version", provenance.build.version},
       {"commit", provenance.build.commit},
       {"compiler", provenance.build.compiler},
@@ -69,8 +69,7 @@ void write_provenance(const std::filesystem::path& dir, const Provenance& proven
       {"started", provenance.started},
   };
   // A command line may hold any bytes; what is no UTF-8 is replaced rather than refused.
-  write_file(dir / "provenance.json",
-             json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n", durability);
+  write_file(dir / "provenance.json", json_text(json, 2, InvalidText::Replaced), durability);
 }
 
 std::optional<Provenance> read_provenance(const std::filesystem::path& dir) {
@@ -78,14 +77,14 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& dir) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return std::nullopt;
   try {
-    const nlohmann::json json = nlohmann::json::parse(read_file(path));
+    const Json json = parse_json(read_file(path));
     Provenance provenance;
     json.at("version").get_to(provenance.build.version);
     json.at("commit").get_to(provenance.build.commit);
     json.at("compiler").get_to(provenance.build.compiler);
     json.at("flags").get_to(provenance.build.flags);
     json.at("build_type").get_to(provenance.build.build_type);
-    const nlohmann::json& machine = json.at("machine");
+    const Json& machine = json.at("machine");
     machine.at("cpu").get_to(provenance.machine.cpu);
     machine.at("cores").get_to(provenance.machine.cores);
     machine.at("memory_bytes").get_to(provenance.machine.memory_bytes);
@@ -93,7 +92,7 @@ std::optional<Provenance> read_provenance(const std::filesystem::path& dir) {
     json.at("command").get_to(provenance.command);
     json.at("started").get_to(provenance.started);
     return provenance;
-  } catch (const nlohmann::json::exception& e) {
+  } catch (const Json::exception& e) {
     throw IoError(fmt::format("{}: {}", path.string(), e.what()));
   }
 }

@@ -2,19 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "reports/files/json_text.hpp"
 #include "verification/scene/scene_config.hpp"
 #include "verification/schema/schema_text.hpp"
 
 namespace verification {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using reports::Json;
 
 const Json& schema() {
-  static const Json parsed = Json::parse(study_schema_text);
+  static const Json parsed = reports::parse_json(study_schema_text);
   return parsed;
 }
 
@@ -99,7 +99,7 @@ void add_section(const std::string& path, const Json& node, std::string& page) {
 }  // namespace
 
 std::string study_schema() {
-  return schema().dump(1) + "\n";
+  return reports::json_text(schema(), 1, reports::InvalidText::Refused);
 }
 
 std::string scene_schema() {
@@ -110,7 +110,7 @@ std::string scene_schema() {
   Json properties;
   for (const std::string& table : scene_tables()) properties[table] = scene["properties"][table];
   scene["properties"] = properties;
-  return scene.dump(1) + "\n";
+  return reports::json_text(scene, 1, reports::InvalidText::Refused);
 }
 
 std::string keys_page() {

@@ -5,12 +5,13 @@
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "reports/files/atomic_file.hpp"
 #include "reports/files/csv.hpp"
 #include "reports/files/io_error.hpp"
+#include "reports/files/json_text.hpp"
 #include "verification/not_a_number.hpp"
 #include "verification/runs/foreign/delivery.hpp"
 #include "verification/runs/run_simulation.hpp"
@@ -185,10 +186,9 @@ void read_delivery(const Study& study, const PlannedRun& plan, const fs::path& f
 }
 
 void read_run_json(const fs::path& file, const ForeignSolver& solver, RunData& data) {
-  std::ifstream in(file);
-  if (!in) return;
+  if (!std::ifstream(file)) return;
   try {
-    const nlohmann::json json = nlohmann::json::parse(in);
+    const reports::Json json = reports::parse_json(reports::read_file(file));
     const std::string status = json.value("status", "completed"), message = json.value("message", "");
     if (status != "completed")
       throw std::runtime_error("its run.json says '" + status + "'" +
@@ -205,7 +205,9 @@ void read_run_json(const fs::path& file, const ForeignSolver& solver, RunData& d
       data.timing.wall_s = json.at("wall_s");
       data.timing.clock = reports::clock_solver;
     }
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const reports::Json::exception& error) {
+    throw std::runtime_error(std::string("its run.json cannot be read: ") + error.what());
+  } catch (const reports::IoError& error) {
     throw std::runtime_error(std::string("its run.json cannot be read: ") + error.what());
   }
 }

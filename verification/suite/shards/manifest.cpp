@@ -1,10 +1,10 @@
 #include "verification/suite/shards/manifest.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
+#include "reports/files/json_text.hpp"
 #include "verification/config/config_error.hpp"
 #include "verification/scene/handed_scene.hpp"
 
@@ -12,7 +12,7 @@ namespace verification {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using reports::Json;
 
 Json json_of(const PlannedSuite& suite) {
   return {{"studies_directory", suite.studies.string()}, {"studies", suite.names}, {"suite", suite.suite}};
@@ -31,7 +31,7 @@ Json parsed(const fs::path& file, const char* remedy) {
     throw ConfigError(file.string() + " is not there: " + remedy);
   }
   try {
-    Json json = Json::parse(text);
+    Json json = reports::parse_json(text);
     if (json.at("protocol").get<int>() != protocol_version)
       throw ConfigError(file.string() + " is of another version of the protocol: make it anew");
     return json;
@@ -64,7 +64,8 @@ void write_manifest(const fs::path& directory, const Manifest& manifest) {
     runs.push_back(run);
   }
   json["runs"] = runs;
-  reports::write_file(directory / "manifest.json", json.dump(1) + "\n");
+  reports::write_file(directory / "manifest.json",
+                      reports::json_text(json, 1, reports::InvalidText::Refused));
 }
 
 Manifest read_manifest(const fs::path& directory) {
@@ -95,7 +96,7 @@ void write_shard(const fs::path& directory, const ShardState& state) {
                      {"runs", state.runs},
                      {"complete", state.complete},
                      {"failures", state.failures}};
-  reports::write_file(directory / "shard.json", json.dump(1) + "\n");
+  reports::write_file(directory / "shard.json", reports::json_text(json, 1, reports::InvalidText::Refused));
 }
 
 ShardState read_shard(const fs::path& directory) {
