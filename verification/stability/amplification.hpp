@@ -37,4 +37,7 @@ Amplification amplification_matrix(const mpm::Scheme& scheme, const BlochSymbols
 /// Largest modulus of an eigenvalue.
 double spectral_radius(const Amplification& matrix);
 
+/// Whether the spectral radius exceeds 1 + allowance: without eigenvalues where powers of the matrix tell.
+bool grows(const Amplification& matrix, double allowance);
+
 }  // namespace verification

@@ -26,19 +26,19 @@ class LimitSearch {
     ParticleLattice lattice = problem_.lattice;
     lattice.offset = {lattice.offset[0] + at[2], lattice.offset[1] + at[3]};
     const BlochSymbols symbols = bloch_symbols(problem_.scheme.basis, lattice, {at[0], at[1]});
-    const auto grows = [&](double multiple) {
-      return spectral_radius(amplification_matrix(problem_.scheme, symbols, problem_.waves,
-                                                  problem_.at(multiple))) > 1 + growth_allowance;
+    const auto grows_at = [&](double multiple) {
+      return grows(amplification_matrix(problem_.scheme, symbols, problem_.waves, problem_.at(multiple)),
+                   growth_allowance);
     };
     bool lower = false;
     for (const double probe : probes) {
       double unstable = probe * limit_ * (1 - 1e-9);
-      if (!grows(unstable)) continue;
+      if (!grows_at(unstable)) continue;
       double stable = 0;
       // 40 halvings would reach round-off; a limit that is zero stays above the last.
       for (int i = 0; i < 40 && unstable - stable > 1e-8 * unstable; ++i) {
         const double middle = 0.5 * (stable + unstable);
-        (grows(middle) ? unstable : stable) = middle;
+        (grows_at(middle) ? unstable : stable) = middle;
       }
       limit_ = 0.5 * (stable + unstable);
       worst_ = at;

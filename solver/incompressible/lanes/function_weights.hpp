@@ -7,12 +7,32 @@
 
 namespace mpm::MPM_ISA {
 
+/// Four functions at most fill half of the widest registers: the other half would be so much work for
+/// nothing.
+template <bool is_half>
+struct WeightVector {
+  using Type = Vector;
+};
+template <>
+struct WeightVector<true> {
+  using Type = double __attribute__((vector_size(4 * sizeof(double))));
+};
+
 /// n functions of an axis at a point, one a lane, zeros behind the last.
 template <int n>
 struct FunctionWeights {
-  static constexpr int parts = (n + width - 1) / width, padded = parts * width;
-  Lanes part[parts];
+  using Part = typename WeightVector<(n <= 4 && width > 4)>::Type;
+  static constexpr int lanes = sizeof(Part) / sizeof(double), parts = (n + lanes - 1) / lanes,
+                       padded = parts * lanes;
+
+  Part part[parts];
   [[nodiscard]] const double* of() const { return reinterpret_cast<const double*>(part); }
+
+  [[gnu::always_inline]] static Part load_part(const double* from) {
+    Part part;
+    std::memcpy(&part, from, sizeof part);
+    return part;
+  }
 };
 
 /// The polynomials that the functions of an axis are in each cell, every distinct set once: away from walls
@@ -61,10 +81,11 @@ class CellPolynomials {
   [[gnu::always_inline]] void at(int cell, double xi, FunctionWeights<n>& sum) const {
     using W = FunctionWeights<n>;
     const double* const powers = sets_.of_cell(cell);
-    unroll<W::parts>([&](int p) { sum.part[p] = load(powers + p * width); });
+    unroll<W::parts>([&](int p) { sum.part[p] = W::load_part(powers + p * W::lanes); });
     unroll<n - 1>([&](int m) {
-      unroll<W::parts>(
-          [&](int p) { sum.part[p] = sum.part[p] * xi + load(powers + (m + 1) * W::padded + p * width); });
+      unroll<W::parts>([&](int p) {
+        sum.part[p] = sum.part[p] * xi + W::load_part(powers + (m + 1) * W::padded + p * W::lanes);
+      });
     });
   }
 

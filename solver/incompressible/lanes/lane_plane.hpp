@@ -131,15 +131,16 @@ class LanePlane final : public PlaneKernel {
                                                 const FunctionWeights<ny>& y) {
     using Row = FunctionWeights<nx>;
     Row sums;
-    unroll<Row::parts>([&](int p) { sums.part[p] = y.of()[0] * load(field + p * width); });
+    unroll<Row::parts>([&](int p) { sums.part[p] = y.of()[0] * Row::load_part(field + p * Row::lanes); });
     unroll<ny - 1>([&](int j) {
-      unroll<Row::parts>(
-          [&](int p) { sums.part[p] += y.of()[j + 1] * load(field + (j + 1) * stride + p * width); });
+      unroll<Row::parts>([&](int p) {
+        sums.part[p] += y.of()[j + 1] * Row::load_part(field + (j + 1) * stride + p * Row::lanes);
+      });
     });
-    Lanes total = sums.part[0] * x.part[0];
+    typename Row::Part total = sums.part[0] * x.part[0];
     for (int p = 1; p < Row::parts; ++p) total += sums.part[p] * x.part[p];
     double sum = 0;
-    unroll<std::min(width, nx)>([&](int lane) { sum += total.v[lane]; });
+    for (int lane = 0; lane < std::min(Row::lanes, nx); ++lane) sum += total[lane];
     return sum;
   }
 

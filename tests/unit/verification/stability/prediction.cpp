@@ -163,3 +163,23 @@ TEST_CASE("the spectral radius is the largest modulus of the eigenvalues that a 
   unknown(1, 2) = std::numeric_limits<double>::quiet_NaN();
   CHECK(std::isinf(spectral_radius(unknown)));
 }
+
+TEST_CASE("growth is told by powers as it is by eigenvalues, however near to one they lie") {
+  using namespace std::complex_literals;
+  constexpr double allowance = 1e-6;
+  for (const Eigen::Index n : {1, 2, 3, 6})
+    for (const double shear : {0.0, 0.5, 30.0})
+      for (const double away : {-0.5, -1e-3, -1e-5, 0.0, 0.9e-6, 1.1e-6, 1e-5, 1e-3, 0.5}) {
+        // Triangular: its eigenvalues stand on the diagonal, one of them away from the unit circle.
+        Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(n, n);
+        for (Eigen::Index k = 0; k < n; ++k) matrix(k, k) = 0.9 * std::exp(1i * double(k));
+        for (Eigen::Index k = 0; k + 1 < n; ++k) matrix(k, k + 1) = shear;
+        matrix(n / 2, n / 2) *= (1 + away) / 0.9;
+        INFO(n << " " << shear << " " << away);
+        CHECK(grows(matrix, allowance) == (away > allowance));
+        CHECK(grows(matrix.transpose(), allowance) == (away > allowance));
+      }
+  Eigen::MatrixXcd unknown = Eigen::MatrixXcd::Identity(4, 4);
+  unknown(1, 2) = std::numeric_limits<double>::quiet_NaN();
+  CHECK(grows(unknown, allowance));
+}
