@@ -171,22 +171,26 @@ double largest_eigenvalue(const Amplification& matrix) {
   return largest;
 }
 
-/// A power of a matrix, by real and imaginary parts: products of complex numbers would look for infinities.
+/// A power of a matrix, filled up with zeros to the size of the largest; by real and imaginary parts:
+/// products of complex numbers would look for infinities.
 class Power {
  public:
-  explicit Power(const Amplification& matrix) : real_(matrix.real()), imaginary_(matrix.imag()) {}
+  explicit Power(const Amplification& matrix) {
+    real_.topLeftCorner(matrix.rows(), matrix.cols()) = matrix.real();
+    imaginary_.topLeftCorner(matrix.rows(), matrix.cols()) = matrix.imag();
+  }
 
   void square() {
-    const Part both = real_.lazyProduct(imaginary_) + imaginary_.lazyProduct(real_);
-    real_ = (real_.lazyProduct(real_) - imaginary_.lazyProduct(imaginary_)).eval();
-    imaginary_ = both;
+    const Part real = real_ * real_ - imaginary_ * imaginary_;
+    imaginary_ = (real_ * imaginary_ + imaginary_ * real_).eval();
+    real_ = real;
   }
   [[nodiscard]] double norm() const { return std::sqrt(real_.squaredNorm() + imaginary_.squaredNorm()); }
   [[nodiscard]] double trace() const { return std::hypot(real_.trace(), imaginary_.trace()); }
 
  private:
-  using Part = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-  Part real_, imaginary_;
+  using Part = Eigen::Matrix<double, 6, 6>;
+  Part real_ = Part::Zero(), imaginary_ = Part::Zero();
 };
 
 }  // namespace
