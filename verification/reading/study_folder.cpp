@@ -66,12 +66,12 @@ Study read_in(const fs::path& file, const fs::path& directory, const Guide& guid
 
 }  // namespace
 
-std::vector<Study> read_studies(const fs::path& directory) {
+std::vector<Study> read_studies(const fs::path& directory, int threads) {
   const Guide guide = guide_of(directory);
   const std::vector<fs::path> files = study_files(directory);
   std::vector<Study> studies(files.size());
   std::vector<std::exception_ptr> wrong(files.size());
-  reports::for_each_index(files.size(), available_cores(), [&](std::size_t i) {
+  reports::for_each_index(files.size(), threads > 0 ? threads : available_cores(), [&](std::size_t i) {
     try {
       studies[i] = read_in(files[i], directory, guide);
     } catch (...) {

@@ -73,7 +73,7 @@ std::vector<std::string> further_studies() {
 /// asked.
 std::map<std::string, KeyJournal::Asked> asked_keys() {
   const KeyJournal journal;
-  (void)read_studies(MPM_STUDIES);
+  (void)read_studies(MPM_STUDIES, 1);  // a journal is of one thread
   for (const std::string& text : further_studies()) try {
       (void)read_study_text(text, "further");
     } catch (const ConfigError&) {
