@@ -1,8 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+// Its name is enough here: the vector kernels, which have arrays of their own, do without the library.
+namespace Eigen {
+template <typename Derived>
+class ArrayBase;
+}
 
 namespace mpm {
 
