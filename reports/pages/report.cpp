@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "reports/threads/for_each_index.hpp"
 #include "reports/figures/drawing/gnuplot.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/pages/browser.hpp"
@@ -12,6 +11,7 @@
 #include "reports/pages/summary.hpp"
 #include "reports/records/directory/result_files.hpp"
 #include "reports/records/report_data.hpp"
+#include "reports/threads/for_each_index.hpp"
 
 namespace reports {
 namespace {

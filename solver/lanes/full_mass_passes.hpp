@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solver/grid/boundary.hpp"
-#include "solver/grid/sparse_pattern.hpp"
+#include "solver/grid/matrices/sparse_pattern.hpp"
 #include "solver/kernel/isa.hpp"
 #include "solver/lanes/lane_particles.hpp"
 #include "solver/lanes/line_mass.hpp"

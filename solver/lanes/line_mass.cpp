@@ -1,9 +1,9 @@
 #include "solver/lanes/line_mass.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "solver/grid/tensor_mass.hpp"
+#include "solver/grid/matrices/cholesky.hpp"
+#include "solver/grid/matrices/tensor_mass.hpp"
 
 namespace mpm {
 
@@ -27,8 +27,8 @@ LineMass line_mass(const Axis& axis, bool walls_prescribe) {
       const int j = i + d;
       if (axis.periodic || (j >= 0 && j < count)) near.push_back((j + count) % count);
     }
-    const Eigen::MatrixXd columns = mass(Eigen::all, near), normal = columns.transpose() * columns;
-    const Eigen::VectorXd column = normal.llt().solve(mass(near, i));
+    const Eigen::MatrixXd columns = mass(Eigen::all, near);
+    const Eigen::VectorXd column = solve_positive_definite(columns.transpose() * columns, mass(near, i));
     for (std::size_t k = 0; k < near.size(); ++k) inverse(near[k], i) = column[static_cast<Eigen::Index>(k)];
   }
   inverse = (0.5 * (inverse + inverse.transpose())).eval();

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/grid/conjugate_gradients.hpp"
+#include "solver/grid/matrices/conjugate_gradients.hpp"
 
 namespace mpm {
 namespace {

@@ -4,12 +4,12 @@
 #include <array>
 #include <optional>
 
-#include "solver/grid/banded_matrix.hpp"
 #include "solver/grid/boundary.hpp"
-#include "solver/grid/sparse_pattern.hpp"
-#include "solver/grid/stencil_matrix.hpp"
+#include "solver/grid/matrices/banded_matrix.hpp"
+#include "solver/grid/matrices/sparse_pattern.hpp"
+#include "solver/grid/matrices/stencil_matrix.hpp"
+#include "solver/grid/matrices/tensor_mass.hpp"
 #include "solver/grid/stencil_table.hpp"
-#include "solver/grid/tensor_mass.hpp"
 
 namespace mpm {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "solver/grid/boundary.hpp"
-#include "solver/grid/sparse_pattern.hpp"
+#include "solver/grid/matrices/sparse_pattern.hpp"
 #include "solver/grid/stencil_table.hpp"
 
 namespace mpm {

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "solver/grid/boundary.hpp"
-#include "solver/grid/sparse_pattern.hpp"
+#include "solver/grid/matrices/sparse_pattern.hpp"
 #include "solver/grid/stencil_table.hpp"
 #include "solver/material/rheology.hpp"
 

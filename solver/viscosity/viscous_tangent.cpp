@@ -2,7 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 
-#include "solver/grid/banded_matrix.hpp"
+#include "solver/grid/matrices/banded_matrix.hpp"
 
 namespace mpm {
 namespace {

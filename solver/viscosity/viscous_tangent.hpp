@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "solver/grid/sparse_pattern.hpp"
+#include "solver/grid/matrices/sparse_pattern.hpp"
 #include "solver/grid/stencil_table.hpp"
 
 namespace mpm {

@@ -10,8 +10,8 @@
 namespace verification {
 
 /// Every study of a directory and its folders, by name. A study's topic is the first folder that it lies in,
-/// unless it names another. Files are read on so many threads, 0: one a core; what is wrong is said of the first
-/// of them in the order of paths. Throws ConfigError when there is none, or two of one name.
+/// unless it names another. Files are read on so many threads, 0: one a core; what is wrong is said of the
+/// first of them in the order of paths. Throws ConfigError when there is none, or two of one name.
 std::vector<Study> read_studies(const std::filesystem::path& directory, int threads = 0);
 
 /// The study of that name, wherever it lies in the directory. Throws ConfigError.

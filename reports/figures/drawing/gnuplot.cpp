@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "reports/figures/drawing/figure_cache.hpp"
-#include "reports/threads/for_each_index.hpp"
 #include "reports/files/atomic_file.hpp"
 #include "reports/files/io_error.hpp"
 #include "reports/files/program.hpp"
 #include "reports/files/utf8.hpp"
 #include "reports/process/child.hpp"
+#include "reports/threads/for_each_index.hpp"
 
 namespace reports {
 namespace {

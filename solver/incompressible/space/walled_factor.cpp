@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "solver/grid/matrices/quiet_gsl.hpp"
 #include "solver/incompressible/space/exact_mass.hpp"
 
 namespace mpm::incompressible {
@@ -29,8 +30,7 @@ GeneralisedModes generalised_modes(MatrixXd a, const MatrixXd& mass) {
   gsl_vector_view values = gsl_vector_view_array(modes.eigenvalues.data(), n);
   const std::unique_ptr<gsl_eigen_gensymmv_workspace, decltype(&gsl_eigen_gensymmv_free)> room(
       gsl_eigen_gensymmv_alloc(n), &gsl_eigen_gensymmv_free);
-  static gsl_error_handler_t* const would_end_the_program = gsl_set_error_handler_off();
-  static_cast<void>(would_end_the_program);
+  quiet_gsl();
   if (gsl_eigen_gensymmv(&of_a.matrix, &of_m.matrix, &values.vector, &vectors.matrix, room.get()) !=
       GSL_SUCCESS)
     throw SceneError("the mass of this grid could not be factorised");

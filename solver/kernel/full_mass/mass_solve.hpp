@@ -8,7 +8,8 @@
 namespace mpm::MPM_ISA {
 
 /// Solves M x = b for both components of a nodal field at once, with prescribed values on walls, by conjugate
-/// gradients (ConsistentMass, solver/transfer; solver/grid/conjugate_gradients.hpp, whose notes hold here).
+/// gradients (ConsistentMass, solver/transfer; solver/grid/matrices/conjugate_gradients.hpp, whose notes hold
+/// here).
 class MassSolve {
  public:
   /// With the mass of a uniform fluid, and the nodes whose values are prescribed (FullMassSetup).

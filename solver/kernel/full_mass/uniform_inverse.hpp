@@ -8,7 +8,7 @@
 namespace mpm::MPM_ISA {
 
 /// What conjugate gradients for a mass matrix are preconditioned with: next to the inverse of a uniform
-/// fluid's, a tensor product of one matrix an axis (solver/grid/tensor_mass.hpp), scaled to the true
+/// fluid's, a tensor product of one matrix an axis (solver/grid/matrices/tensor_mass.hpp), scaled to the true
 /// diagonal. The matrices are LineMass::inverse: a sum over a few neighbours needs none of its results
 /// before.
 class UniformInverse {

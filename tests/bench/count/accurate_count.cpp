@@ -1,7 +1,7 @@
 // As kernel_count.cpp, of the schemes that are accurate in two dimensions.
 #include "tests/bench/count/counted_kernel.hpp"
 // After it: kernels that count themselves.
-#include "solver/grid/sparse_pattern.hpp"
+#include "solver/grid/matrices/sparse_pattern.hpp"
 #include "solver/kernel/full_mass/lane_full_mass.hpp"
 #include "solver/lanes/line_mass.hpp"
 #include "tests/bench/count/work_count.hpp"

@@ -1,10 +1,11 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "solver/grid/conjugate_gradients.hpp"
+#include "solver/grid/matrices/cholesky.hpp"
+#include "solver/grid/matrices/conjugate_gradients.hpp"
+#include "solver/grid/matrices/stencil_matrix.hpp"
+#include "solver/grid/matrices/tensor_mass.hpp"
 #include "solver/grid/stencil.hpp"
-#include "solver/grid/stencil_matrix.hpp"
-#include "solver/grid/tensor_mass.hpp"
 #include "solver/scene/seeding.hpp"
 #include "tests/catch.hpp"
 
@@ -115,4 +116,18 @@ TEST_CASE("conjugate gradients solve for both components, one of which may be no
     CHECK(v[i].x() == Approx(exact[static_cast<Eigen::Index>(i)]).epsilon(1e-14));
     CHECK(v[i].y() == 0);
   }
+}
+
+TEST_CASE("a positive definite matrix is the product of its triangles, another is refused") {
+  Eigen::Matrix3d a;
+  a << 4, 1, 0.5, 1, 3, -1, 0.5, -1, 5;
+  const Eigen::MatrixXd lower = cholesky_factor(a);
+  CHECK(lower.isLowerTriangular(0));
+  // Round-off of three products of numbers up to five.
+  CHECK((lower * lower.transpose() - a).cwiseAbs().maxCoeff() < 1e-14);
+  const Eigen::Vector3d x(1, -2, 0.25);
+  CHECK((solve_positive_definite(a, a * x) - x).cwiseAbs().maxCoeff() < 1e-14);
+  a(2, 2) = -5;
+  CHECK_THROWS_AS(cholesky_factor(a), SceneError);
+  CHECK_THROWS_AS(solve_positive_definite(a, x), SceneError);
 }

@@ -1,4 +1,4 @@
-#include "solver/grid/banded_matrix.hpp"
+#include "solver/grid/matrices/banded_matrix.hpp"
 
 #include <algorithm>
 

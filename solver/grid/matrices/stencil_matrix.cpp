@@ -1,4 +1,4 @@
-#include "solver/grid/stencil_matrix.hpp"
+#include "solver/grid/matrices/stencil_matrix.hpp"
 
 #include <cstring>
 

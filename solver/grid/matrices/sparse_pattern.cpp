@@ -1,4 +1,4 @@
-#include "solver/grid/sparse_pattern.hpp"
+#include "solver/grid/matrices/sparse_pattern.hpp"
 
 #include <algorithm>
 #include <utility>

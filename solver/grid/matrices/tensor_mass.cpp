@@ -1,8 +1,8 @@
-#include "solver/grid/tensor_mass.hpp"
+#include "solver/grid/matrices/tensor_mass.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "solver/grid/matrices/cholesky.hpp"
 #include "solver/scene/seeding.hpp"
 
 namespace mpm {
@@ -46,7 +46,7 @@ void transpose(const VectorField& from, std::size_t rows, std::size_t columns, V
 
 TensorMass::Factor::Factor(const Axis& axis) {
   const Eigen::MatrixXd mass = mass_along(axis);
-  const Eigen::MatrixXd lower = mass.llt().matrixL();
+  const Eigen::MatrixXd lower = cholesky_factor(mass);
   for (int j = 0; j < mass.cols(); ++j) {
     diagonal.push_back(mass(j, j));
     inverse_pivot.push_back(1 / lower(j, j));
