@@ -28,7 +28,8 @@ double GravityCurrent::exponent(double n) {
 /// Integral of (1 - s^m)^p over [0, 1] = Gamma(1 + 1/m) Gamma(1 + p)/Gamma(1 + 1/m + p).
 double GravityCurrent::fullness(double n) {
   const double a = 1 / (n + 1), p = 1 / (n + 2);
-  return std::exp(std::lgamma(1 + a) + std::lgamma(1 + p) - std::lgamma(1 + a + p));
+  // Not by lgamma(), which keeps the sign in a variable that all threads share.
+  return std::tgamma(1 + a) * std::tgamma(1 + p) / std::tgamma(1 + a + p);
 }
 
 double GravityCurrent::front_constant(double n) {
